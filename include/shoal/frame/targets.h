@@ -5,6 +5,7 @@
 
 #include <shoal/core/result.h>
 #include <shoal/frame/context.h>
+#include <shoal/gl/program.h>
 
 namespace shoal::frame {
 
