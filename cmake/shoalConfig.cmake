@@ -22,6 +22,8 @@ find_dependency(fmt)
 find_dependency(assimp)
 find_dependency(OpenEXR 3.1)
 find_dependency(ZLIB)
+find_dependency(PNG)
+find_dependency(libjpeg-turbo)
 include("${CMAKE_CURRENT_LIST_DIR}/shoalCpuTargets.cmake")
 
 if(shoal_gl_FOUND)

@@ -27,18 +27,19 @@ std::optional<ImageFormat> imageFormatOf(const std::filesystem::path& path);
 // By the first bytes; nothing where they are none of the four.
 std::optional<ImageFormat> imageFormatOf(std::span<const std::byte> bytes);
 
-// ---- reading ----------------------------------------------------------------------------------------------------------
+// ---- reading ----
 
-// Linear float pixels. PNG and JPEG: 1 (grey), 3 or 4 channels, sRGB decoded (8 and 16 bit; alpha is linear as stored; grey
-// with alpha becomes 4 channels). HDR: 3 channels, radiance (EXPOSURE divided out). EXR: the main picture (see readLayers),
-// radiance; Y alone is 1 channel, else R, G, B and A where there is one.
-// channelNames are set ("R", "G", "B", "A" or "Y").
+// Linear float pixels. PNG and JPEG: 1 (grey), 3 or 4 channels, sRGB decoded (8 and 16 bit; alpha is linear as stored;
+// grey with alpha becomes 4 channels). HDR: 3 channels, radiance (EXPOSURE divided out). EXR: the main picture (see
+// readLayers), radiance; Y alone is 1 channel, else R, G, B and A where there is one. channelNames are set ("R", "G",
+// "B", "A" or "Y").
 Result<Image> readImage(const std::filesystem::path& path);
 Result<Image> readImage(std::span<const std::byte> bytes, const std::string& name);
 
-// Every layer of an EXR, the main picture first with the name "", then by name: channel "depth.Z" is channel "Z" of layer
-// "depth"; parts of a multi-part file are layers too. Channels of a layer are in the order R G B A, X Y Z, else by name.
-// Other formats: one layer. Pixels outside the data window are 0, what lies outside the display window is dropped.
+// Every layer of an EXR, the main picture first with the name "", then by name: channel "depth.Z" is channel "Z" of
+// layer "depth"; parts of a multi-part file are layers too. Channels of a layer are in the order R G B A, X Y Z, else
+// by name. Other formats: one layer. Pixels outside the data window are 0, what lies outside the display window is
+// dropped.
 Result<std::vector<Layer>> readLayers(const std::filesystem::path& path);
 Result<std::vector<Layer>> readLayers(std::span<const std::byte> bytes, const std::string& name);
 
@@ -50,11 +51,11 @@ Result<ByteImage> readByteImage(const std::filesystem::path& path);
 struct ImageInfo {
     ImageFormat format = ImageFormat::png;
     int width = 0, height = 0, channelCount = 0;
-    std::string details;   // "8 bit", "half, DWAB", ... one line for `shoal info`
+    std::string details;  // "8 bit", "half, DWAB", ... one line for `shoal info`
 };
 Result<ImageInfo> readImageInfo(const std::filesystem::path& path);
 
-// ---- writing (all atomic, see file.h) -----------------------------------------------------------------------------------
+// ---- writing, all atomic (file.h) ----
 
 // 8-bit RGB, or RGBA with straight alpha. sRGB-encoded values, marked so in the file.
 Result<void> writePng(const std::filesystem::path& path, const ByteImage& image, bool withAlpha = false);
@@ -65,24 +66,28 @@ Result<void> writeByteImage(const std::filesystem::path& path, const ByteImage& 
 
 enum class ExrCompression { none, rle, zip, zipScanline, piz };
 struct ExrOptions {
-    bool halfColor = true;                           // main picture and layers of R, G, B, (A) as half floats
+    bool halfColor = true;  // main picture and layers of R, G, B, (A) as half floats
     ExrCompression compression = ExrCompression::zip;
 };
-// Layers of equal size to one EXR with the channel names that Blender and Nuke show as layers. A layer's channelNames are
-// used where given; else 1 channel is Z for "depth", "id" for a name ending in "Id" and Y otherwise; 2 are X, Y; 3 are X, Y, Z
-// for "normal", "position" and "motion" and R, G, B otherwise; 4 are R, G, B, A. The main picture ("") has plain names.
-// Everything that is not colour is float32; ids too (float32 holds whole numbers exactly to 2^24; readers without UINT are
-// many). Half floats saturate at +-65504 instead of becoming infinite.
+// Layers of equal size to one EXR with the channel names that Blender and Nuke show as layers: "depth.Z", "albedo.R";
+// the main picture ("") has plain R, G, B, A. A layer's channelNames are used where given. Else one channel is Z for
+// "depth", X for a name ending in "Id" (as Blender's IndexOB.X; it wants one letter) and Y otherwise; two are X, Y;
+// three are X, Y, Z for "normal", "position" and "motion" and R, G, B otherwise; four are R, G, B, A. Colour (R, G, B,
+// A or Y) is half where options say so, saturating at +-65504; all else is float32, ids too: exact for whole numbers to
+// 2^24, and more readers take it than take UINT.
 Result<void> writeExr(const std::filesystem::path& path, std::span<const Layer> layers, const ExrOptions& options = {});
 Result<void> writeExr(const std::filesystem::path& path, const Image& image, const ExrOptions& options = {});
 
 // Display-encoded 0..1 (1, 3 or 4 channels) to 8 bits, rounded to nearest; NaN is 0; alpha 255 where there is none.
 ByteImage quantize(const Image& displayReferred);
 
-// ---- numbered frames ----------------------------------------------------------------------------------------------------
+// ---- numbered frames ----
 
-// The file of frame `frame` (>= 0): one run of '#' is the zero-padded number that wide, so is printf's %d or %04d ("%%" is
-// a percent sign); without either, "out/f.exr" becomes "out/f_0007.exr". Errors: two placeholders, any other use of '%'.
+// The file of frame `frame` (>= 0). In the file's name, not its folder, one run of '#' is the number zero-padded to
+// that width, so is printf's %d or %04d ("%%" is a percent sign); without either, "out/f.exr" becomes "out/f_0007.exr".
+// Errors: two placeholders, any other use of '%', a negative frame.
 Result<std::filesystem::path> framePath(const std::filesystem::path& pattern, int frame);
+// Whether the file's name asks for a number by '#' or '%'.
+bool hasFramePlaceholder(const std::filesystem::path& pattern);
 
 }  // namespace shoal::io
