@@ -1,0 +1,54 @@
+// A scene's files read and its shapes made: plain data ready for a renderer, and where the camera is at a time.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <shoal/core/log.h>
+#include <shoal/core/model.h>
+#include <shoal/light/environment.h>
+#include <shoal/light/lights.h>
+#include <shoal/light/view.h>
+#include <shoal/scene/scene.h>
+
+namespace shoal::scene {
+
+// One thing that stands somewhere.
+struct Instance {
+    std::string name;
+    int model = -1;               // index into Content::models
+    int clip = -1;
+    float speed = 1, startTime = 0;
+    bool loop = true, castsShadow = true, visible = true;
+    Vec3 tint{1, 1, 1};
+    Mat4 worldFromModel;          // without a walk
+    std::optional<WalkSpec> walk;
+    std::vector<std::string> hide;
+};
+// worldFromModel at `time` seconds: the walk's where there is one.
+Mat4 transformAt(const Instance& instance, float time);
+
+struct CameraPoseKey {
+    float time = 0;
+    Mat4 worldFromView;
+};
+
+struct Content {
+    std::vector<Model> models;
+    std::vector<Instance> instances;
+    std::optional<light::Environment> environment;   // nothing: black
+    std::optional<light::Sun> sun;
+    bool sunInBackground = false;                    // the sky was made without the disc: draw it
+    std::vector<light::PunctualLight> lights;        // the scene's and the models' own
+    std::vector<CameraPoseKey> poses;                // of CameraKind::poses
+    Bounds bounds;                                   // of all visible instances at time 0, world
+};
+
+// Reads and makes everything, in parallel. Errors name the scene's line and the file.
+Result<Content> loadContent(const Scene& scene, const LogSink& log = {});
+
+// The camera at `time`. aspect = width / height (for fitting).
+light::Camera cameraAt(const Scene& scene, const Content& content, float time, float aspect);
+
+}  // namespace shoal::scene
