@@ -22,11 +22,11 @@ template <class A, class B>
     ((condition) ? void(0) : ::shoal::detail::assertFailed(#condition, {}, __FILE__, __LINE__))
 #define SHOAL_ASSERT_MSG(condition, message) \
     ((condition) ? void(0) : ::shoal::detail::assertFailed(#condition, (message), __FILE__, __LINE__))
-#define SHOAL_ASSERT_COMPARE_(a, op, b)                                                     \
-    do {                                                                                    \
-        const auto& shoalA = (a);                                                           \
-        const auto& shoalB = (b);                                                           \
-        if (!(shoalA op shoalB))                                                            \
+#define SHOAL_ASSERT_COMPARE_(a, op, b)                                                               \
+    do {                                                                                              \
+        const auto& shoalA = (a);                                                                     \
+        const auto& shoalB = (b);                                                                     \
+        if (!(shoalA op shoalB))                                                                      \
             ::shoal::detail::assertFailedWith(#a " " #op " " #b, shoalA, shoalB, __FILE__, __LINE__); \
     } while (false)
 #define SHOAL_ASSERT_EQ(a, b) SHOAL_ASSERT_COMPARE_(a, ==, b)

@@ -103,18 +103,19 @@ Quat eulerXyz(Vec3 angles);
 
 Mat4 operator*(const Mat4& a, const Mat4& b);
 Vec4 operator*(const Mat4& a, Vec4 v);
-Vec3 transformPoint(const Mat4& a, Vec3 p);       // divides by w
-Vec3 transformDirection(const Mat4& a, Vec3 d);   // linear part only, not normalised
+Vec3 transformPoint(const Mat4& a, Vec3 p);      // divides by w
+Vec3 transformDirection(const Mat4& a, Vec3 d);  // linear part only, not normalised
 Mat4 translation(Vec3 t);
 Mat4 scaling(Vec3 s);
 Mat4 rotation(Quat q);
-Mat4 compose(Vec3 translation, Quat rotation, Vec3 scale);   // T * R * S
+Mat4 compose(Vec3 translation, Quat rotation, Vec3 scale);  // T * R * S
 // The inverse, computed in double precision; nothing for a singular matrix (|det| below 1e-30).
 std::optional<Mat4> inverse(const Mat4& a);
 Mat4 transpose(const Mat4& a);
-// Cofactor matrix of the linear part: transforms normals, right for non-uniform scale and mirrors.
+// Cofactor matrix of the linear part times the sign of its determinant: transforms normals (length not kept), right for
+// non-uniform scale and mirrors.
 Mat3 normalMatrix(const Mat4& a);
-float determinant3(const Mat4& a);   // of the linear part; negative for a mirror
+float determinant3(const Mat4& a);  // of the linear part; negative for a mirror
 
 // viewFromWorld of an eye at `eye` looking at `target`; falls back to another up when up is parallel to the direction.
 Mat4 lookAt(Vec3 eye, Vec3 target, Vec3 up);

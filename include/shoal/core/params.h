@@ -15,23 +15,24 @@
 namespace shoal {
 
 struct Field {
-    const char* name;              // camelCase, as in the scene file
-    const char* unit = "";         // "m", "W/m2", "deg", "px", "" for none
-    double lowest = -1e30;         // range, both ends included; every component of a vector
+    const char* name;       // camelCase, as in the scene file
+    const char* unit = "";  // "m", "W/m2", "deg", "px", "" for none
+    double lowest = -1e30;  // range, both ends included; every component of a vector
     double highest = 1e30;
-    const char* sentence = "";     // what it does
-    std::vector<std::string> choices = {};   // for a std::string field: the words it may be; empty: free text
+    const char* sentence = "";              // what it does
+    std::vector<std::string> choices = {};  // for a std::string field: the words it may be; empty: free text
 };
 
 // A value of a parameter in words or from words: what TOML or --set gives.
 struct FieldValue {
     enum class Kind { boolean, number, numbers, text } kind = Kind::number;
     bool boolean = false;
-    std::vector<double> numbers;   // one for Kind::number
+    std::vector<double> numbers;  // one for Kind::number
     std::string text;
 };
 
-// "3.5", "[1, 2, 3]", "true", "agx" or "\"agx\"" to a value.
+// "3.5", "[1, 2, 3]", "true", "agx" or "\"agx\"" to a value. `text` keeps the words of every kind: a text field takes
+// "5" too.
 Result<FieldValue> parseFieldValue(std::string_view words);
 
 namespace detail {
@@ -59,11 +60,14 @@ std::string showField(Vec2);
 std::string showField(Vec3);
 std::string showField(Vec4);
 std::string showField(const std::string&);
+std::string showRange(const Field&);  // "0 .. 1", "at least 0", "a | b", "" where everything will do; no unit
 }  // namespace detail
 
-// Nearest of `known` to `word` by edit distance, or "" when none is close (more than a third of its letters off, at least 2).
+// Nearest of `known` to `word` by edit distance, or "" when none is close (more than a third of its letters off, at
+// least 2).
 std::string nearestWord(std::string_view word, const std::vector<std::string>& known);
-// `unknown key "fovDg" (did you mean "fovDeg"?)`: what every unknown name is answered with. `what`: "key", "verb", "option".
+// `unknown key "fovDg" (did you mean "fovDeg"?)`: what every unknown name is answered with. `what`: "key", "verb",
+// "option".
 std::string unknownWord(std::string_view what, std::string_view word, const std::vector<std::string>& known);
 
 // Sets field `name` of `params`; the error names the field, the value found and the range or words expected.
@@ -101,10 +105,7 @@ template <class Params>
 std::vector<FieldRow> describe(const Params& params) {
     std::vector<FieldRow> rows;
     visit(params, [&](const auto& field, const Field& d) {
-        std::string range;
-        for (const std::string& c : d.choices) range += (range.empty() ? "" : " | ") + c;
-        if (d.lowest > -1e30 || d.highest < 1e30) range = detail::showField(float(d.lowest)) + " .. " + detail::showField(float(d.highest));
-        rows.push_back({d.name, d.unit, range, detail::showField(field), d.sentence});
+        rows.push_back({d.name, d.unit, detail::showRange(d), detail::showField(field), d.sentence});
     });
     return rows;
 }

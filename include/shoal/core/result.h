@@ -14,11 +14,11 @@ namespace shoal {
 
 // What kind of failure; the tool turns it into its exit code (DESIGN §6).
 enum class ErrorKind {
-    badInput,      // a file or value that cannot be used, or an output that cannot be written: exit 3
-    usage,         // an unknown verb, option, key or value on the command line: exit 2
-    noDevice,      // no usable OpenGL device: exit 4
-    cancelled,     // the caller asked to stop
-    internal,      // ours: a shader that does not link, a driver that reports an error
+    badInput,   // a file or value that cannot be used, or an output that cannot be written: exit 3
+    usage,      // an unknown verb, option, key or value on the command line: exit 2
+    noDevice,   // no usable OpenGL device: exit 4
+    cancelled,  // the caller asked to stop
+    internal,   // ours: a shader that does not link, a driver that reports an error
 };
 
 // One line that names the file, line or field, what was found and what was expected.
@@ -95,17 +95,16 @@ private:
 }  // namespace shoal
 
 // Returns the error to the caller, or goes on: SHOAL_TRY(writePng(...));
-#define SHOAL_TRY(expression)                                                  \
-    do {                                                                       \
-        if (auto shoalResult = (expression); !shoalResult)                     \
-            return ::shoal::Error(std::move(shoalResult).error());             \
+#define SHOAL_TRY(expression)                                                                                     \
+    do {                                                                                                          \
+        if (auto shoalResult = (expression); !shoalResult) return ::shoal::Error(std::move(shoalResult).error()); \
     } while (false)
 
 #define SHOAL_CONCAT_(a, b) a##b
 #define SHOAL_CONCAT(a, b) SHOAL_CONCAT_(a, b)
 // Declares a variable from a Result, or returns its error: SHOAL_TRY_ASSIGN(auto image, io::readImage(path));
-#define SHOAL_TRY_ASSIGN(declaration, expression)                                                       \
-    auto SHOAL_CONCAT(shoalResult, __LINE__) = (expression);                                            \
-    if (!SHOAL_CONCAT(shoalResult, __LINE__))                                                           \
-        return ::shoal::Error(std::move(SHOAL_CONCAT(shoalResult, __LINE__)).error());                  \
+#define SHOAL_TRY_ASSIGN(declaration, expression)                                      \
+    auto SHOAL_CONCAT(shoalResult, __LINE__) = (expression);                           \
+    if (!SHOAL_CONCAT(shoalResult, __LINE__))                                          \
+        return ::shoal::Error(std::move(SHOAL_CONCAT(shoalResult, __LINE__)).error()); \
     declaration = *std::move(SHOAL_CONCAT(shoalResult, __LINE__))

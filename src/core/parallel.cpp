@@ -1,0 +1,31 @@
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+#include <shoal/core/assert.h>
+#include <shoal/core/parallel.h>
+#include <algorithm>
+
+namespace shoal {
+
+ThreadLimit::ThreadLimit(int threadCount) : control_(nullptr) {
+    SHOAL_ASSERT_GE(threadCount, 0);
+    if (threadCount > 0)
+        control_ = new tbb::global_control(tbb::global_control::max_allowed_parallelism, std::size_t(threadCount));
+}
+
+ThreadLimit::~ThreadLimit() { delete static_cast<tbb::global_control*>(control_); }
+
+void parallelChunks(std::size_t count, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& body) {
+    if (count == 0) return;
+    if (grain == 0) grain = 1;
+    const std::size_t chunkCount = (count - 1) / grain + 1;
+    const auto runChunk = [&](std::size_t chunk) {
+        body(chunk * grain, chunk * grain + std::min(grain, count - chunk * grain));
+    };
+    if (chunkCount == 1) return runChunk(0);
+    // Isolated: a thread that waits for an inner loop takes no chunk of an outer one, so a body may hold a lock or use
+    // thread-local scratch across an inner loop.
+    tbb::this_task_arena::isolate([&] { tbb::parallel_for(std::size_t(0), chunkCount, runChunk); });
+}
+
+}  // namespace shoal
