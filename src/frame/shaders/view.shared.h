@@ -26,7 +26,7 @@ SHOAL_VIEW_BLOCK_BEGIN {
     vec4 eye;                     // xyz world, w: 1 orthographic, 0 perspective
     vec4 size;                    // width, height, 1 / width, 1 / height (pixels)
     vec4 timing;                  // time s, time step s, frame index, sample index
-    vec4 depthRange;              // near m, then unused
+    vec4 depthRange;              // near m, jitter x px, jitter y px, unused
 } SHOAL_VIEW_BLOCK_END
 
 #ifdef __cplusplus
