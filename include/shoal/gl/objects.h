@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -29,7 +30,10 @@ struct BufferView {
     explicit operator bool() const { return name != 0; }
 };
 
-// Common part: a name that is deleted when its owner goes. Moved-from owners are empty.
+struct ObjectLedger;   // what a device counts; outlives the device, so that an object that does too is harmless
+
+// Common part: a name that is deleted when its owner goes. Moved-from owners are empty. Creating needs the device to be current;
+// deleting makes it current for the moment where it is not.
 class Object {
 public:
     Object() = default;
@@ -46,10 +50,12 @@ protected:
     Object(Device& device, Type type, std::uint32_t name, std::int64_t bytes);
     ~Object();
     void swap(Object& other) noexcept {
-        std::swap(device_, other.device_), std::swap(type_, other.type_), std::swap(name_, other.name_), std::swap(bytes_, other.bytes_);
+        std::swap(ledger_, other.ledger_), std::swap(type_, other.type_);
+        std::swap(name_, other.name_), std::swap(bytes_, other.bytes_);
     }
     void countBytes(std::int64_t bytes);
-    Device* device_ = nullptr;
+    static void deleteName(Type type, std::uint32_t name);
+    std::shared_ptr<ObjectLedger> ledger_;
     Type type_ = Type::none;
     std::uint32_t name_ = 0;
     std::int64_t bytes_ = 0;

@@ -61,7 +61,9 @@ private:
     std::unique_ptr<State> state_;
 };
 
-// The source after flattening, for tests and tools: text with #line directives, and the file names that their numbers stand for.
+// The source after flattening, for tests and tools: text with #line directives, and the file names that their numbers stand for
+// (line L of file F is "#line F*100000+L F": some compilers lose the second number). A file is included once. `shaderDir` is laid
+// out as src/ is; what it lacks is taken from the embedded texts.
 struct FlatSource {
     std::string text;
     std::vector<std::string> files;
