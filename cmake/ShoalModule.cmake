@@ -43,7 +43,8 @@ function(shoal_add_module name)
         add_library(${target} STATIC ${sources})
         shoal_target_defaults(${target})
         set(scope PUBLIC)
-        target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}/src")
+        target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}/src"
+            "${PROJECT_BINARY_DIR}/generated/shader_include")
         target_link_libraries(${target} PRIVATE ${arg_LIBRARIES})
         foreach(library IN LISTS arg_HEADERS)
             target_include_directories(${target} SYSTEM PRIVATE

@@ -12,7 +12,7 @@ function(shoal_embed_shaders target module)
         "${dir}/*.shared.h")
     list(FILTER shaders INCLUDE REGEX "/shaders/")
 
-    # Lets C++ say #include "frame/x.lib.glsl" as GLSL does.
+    # Lets C++ say #include "frame/x.lib.glsl" as GLSL does (shoal_add_module puts shader_include on the path).
     if(EXISTS "${dir}/shaders")
         file(MAKE_DIRECTORY "${generated}/shader_include")
         file(CREATE_LINK "${dir}/shaders" "${generated}/shader_include/${module}" SYMBOLIC)
@@ -24,7 +24,6 @@ function(shoal_embed_shaders target module)
             --output "${table}" ${shaders}
         DEPENDS "${tool}" ${shaders} COMMENT "Embedding the shaders of ${module}" VERBATIM)
     target_sources(${target} PRIVATE "${table}")
-    target_include_directories(${target} PRIVATE "${generated}/shader_include")
 
     foreach(shader IN LISTS shaders)
         if(NOT shader MATCHES "\\.(vert|frag|comp)(\\.glsl)?$")
