@@ -273,6 +273,7 @@ struct Scene {
     std::vector<ModelEntry> models;
     std::vector<ShapeEntry> shapes;
     RenderSpec render;
+    bool bareModel = false;                    // made by sceneForModel: loadContent adds the ground
     std::vector<RawTable> tables;              // [shadows] [lighting] [post] and the techniques'
     const RawTable* table(std::string_view name) const;
 };

@@ -1,0 +1,181 @@
+// Where the camera is: fixed, circling, along keys, a model file's own, from a list of poses, or fitted.
+#include <algorithm>
+#include <cmath>
+
+#include <shoal/core/pose.h>
+#include <shoal/scene/content.h>
+
+#include "scene/content_parts.h"
+
+namespace shoal::scene {
+
+namespace {
+
+struct ModelCameraPlace {
+    const Instance* instance = nullptr;
+    const Model* model = nullptr;
+    std::size_t node = 0;
+};
+
+// `wanted`: "model", "model/camera" or "/camera"; a camera goes by its own name or its node's.
+std::optional<ModelCameraPlace> findModelCamera(const std::string& wanted, const Content& content) {
+    const std::size_t slash = wanted.find('/');
+    const std::string modelName = wanted.substr(0, slash);
+    const std::string cameraName = slash == std::string::npos ? "" : wanted.substr(slash + 1);
+    for (const Instance& instance : content.instances) {
+        if (!modelName.empty() && instance.name != modelName) continue;
+        const Model& model = content.models[std::size_t(instance.model)];
+        for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+            if (model.nodes[i].camera < 0) continue;
+            const std::string& name = model.cameras[std::size_t(model.nodes[i].camera)].name;
+            if (cameraName.empty() || name == cameraName || model.nodes[i].name == cameraName)
+                return ModelCameraPlace{&instance, &model, i};
+        }
+    }
+    return {};
+}
+
+light::Camera modelCamera(const ModelCameraPlace& place, float time) {
+    Pose pose;
+    poseModel(*place.model, place.instance->clip, place.instance->startTime + time * place.instance->speed, place.instance->loop, pose);
+    const Mat4 worldFromNode = transformAt(*place.instance, time) * pose.modelFromNode[place.node];
+    const ModelCamera& from = place.model->cameras[std::size_t(place.model->nodes[place.node].camera)];
+    // A scaled node must not scale the view: only its axes' directions count.
+    const Vec3 eye = transformPoint(worldFromNode, {0, 0, 0});
+    const Vec3 ahead = normalize(transformDirection(worldFromNode, {0, 0, -1}));
+    light::Camera camera = light::cameraLookingAt(eye, eye + ahead, from.verticalFov, normalize(transformDirection(worldFromNode, {0, 1, 0})));
+    camera.nearZ = std::max(from.nearZ, 1e-3f);
+    if (from.orthographic) {
+        camera.projection = light::Camera::Projection::orthographic;
+        camera.heightM = from.heightM;
+    }
+    return camera;
+}
+
+template <class T>
+T catmullRom(const T& p0, const T& p1, const T& p2, const T& p3, float t) {
+    const float t2 = t * t, t3 = t2 * t;
+    return (p1 * 2.0f + (p2 - p0) * t + (p0 * 2.0f - p1 * 5.0f + p2 * 4.0f - p3) * t2 + (p1 * 3.0f - p0 - p2 * 3.0f + p3) * t3) * 0.5f;
+}
+
+CameraKey keyAt(const std::vector<CameraKey>& keys, float time) {
+    if (time <= keys.front().time) return keys.front();
+    if (time >= keys.back().time) return keys.back();
+    std::size_t i = 0;
+    while (keys[i + 1].time <= time) ++i;
+    const CameraKey &a = keys[i], &b = keys[i + 1];
+    const CameraKey& before = i > 0 ? keys[i - 1] : a;
+    const CameraKey& after = i + 2 < keys.size() ? keys[i + 2] : b;
+    const float t = (time - a.time) / (b.time - a.time);
+    CameraKey key;
+    key.time = time;
+    key.position = catmullRom(before.position, a.position, b.position, after.position, t);
+    key.target = catmullRom(before.target, a.target, b.target, after.target, t);
+    key.fovDeg = std::clamp(catmullRom(before.fovDeg, a.fovDeg, b.fovDeg, after.fovDeg, t), 1.0f, 179.0f);
+    return key;
+}
+
+Mat4 poseAt(const std::vector<CameraPoseKey>& poses, float time) {
+    // Poses are taken as they stand: the last one not after `time` (half a microsecond forgives rounding of frame times).
+    std::size_t i = 0;
+    while (i + 1 < poses.size() && poses[i + 1].time <= time + 5e-7f) ++i;
+    return poses[i].worldFromView;
+}
+
+// Looks down a little and from the side at all there is, so that it fills most of the picture.
+light::Camera fittedCamera(const CameraSpec& spec, const Bounds& bounds, float aspect) {
+    const float fov = radians(spec.fovDeg);
+    if (bounds.empty()) return light::cameraLookingAt({4, 3, 6}, {0, 0, 0}, fov);
+    const Vec3 center = bounds.center();
+    const Vec3 size = bounds.size();
+    // Flat, wide things (a street, a harbour) are looked at from higher up.
+    const float flatness = std::clamp(size.y / std::max({size.x, size.z, 1e-6f}), 0.0f, 1.0f);
+    const float elevation = radians(10.0f + 16.0f * (1 - flatness)), azimuth = radians(32);
+    const Vec3 toEye{std::cos(elevation) * std::sin(azimuth), std::sin(elevation), std::cos(elevation) * std::cos(azimuth)};
+    const Vec3 right = normalize(cross({0, 1, 0}, toEye)), up = cross(toEye, right);
+    const float tanY = std::tan(0.5f * fov), tanX = tanY * aspect;
+    float distance = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+        const Vec3 p{corner & 1 ? bounds.hi.x : bounds.lo.x, corner & 2 ? bounds.hi.y : bounds.lo.y, corner & 4 ? bounds.hi.z : bounds.lo.z};
+        const Vec3 d = p - center;
+        const float along = dot(d, toEye);
+        distance = std::max({distance, along + std::abs(dot(d, right)) / tanX, along + std::abs(dot(d, up)) / tanY});
+    }
+    distance = std::max(distance * 1.08f, 1e-3f);
+    light::Camera camera = light::cameraLookingAt(center + toEye * distance, center, fov);
+    camera.nearZ = std::clamp(0.002f * distance, 1e-4f, 0.1f);
+    camera.heightM = 2 * distance * tanY;
+    return camera;
+}
+
+light::Camera lookingCamera(const CameraSpec& spec, Vec3 position, Vec3 target, float fovDeg) {
+    Vec3 up = spec.up;
+    if (spec.rollDeg != 0) up = rotate(axisAngle(normalize(target - position), radians(spec.rollDeg)), up);
+    light::Camera camera = light::cameraLookingAt(position, target, radians(fovDeg), up);
+    camera.nearZ = spec.near;
+    camera.heightM = spec.heightM;
+    return camera;
+}
+
+}  // namespace
+
+int preferredClip(const Model& model) {
+    for (const char* wanted : {"walk", "walking", "walking_a", "idle"}) {
+        const int clip = findClip(model, wanted);
+        if (clip >= 0) return clip;
+    }
+    return 0;
+}
+
+Image toRgb(Image picture) {
+    if (picture.channelCount == 3) return picture;
+    Image rgb(picture.width, picture.height, 3);
+    for (int y = 0; y < picture.height; ++y)
+        for (int x = 0; x < picture.width; ++x) std::copy_n(picture.at(x, y), 3, rgb.at(x, y));
+    return rgb;
+}
+
+Result<void> checkModelCamera(const Scene& scene, const Content& content) {
+    if (findModelCamera(scene.cameraOfModel, content)) return {};
+    std::string found;
+    for (const Instance& instance : content.instances)
+        for (const Node& node : content.models[std::size_t(instance.model)].nodes)
+            if (node.camera >= 0) found += (found.empty() ? "" : ", ") + instance.name + "/" + node.name;
+    return badInput(scene.cameraPlace.describe() + ": camera.model: found \"" + scene.cameraOfModel + "\", expected " +
+                    (found.empty() ? "another kind of camera: no model of this scene has one" : "one of " + found));
+}
+
+light::Camera cameraAt(const Scene& scene, const Content& content, float time, float aspect) {
+    const CameraSpec& spec = scene.camera;
+    light::Camera camera;
+    switch (scene.cameraKind) {
+    case CameraKind::fixed: camera = lookingCamera(spec, spec.position, spec.target, spec.fovDeg); break;
+    case CameraKind::orbit: {
+        const float angle = radians(scene.orbit.startDeg + time * scene.orbit.degPerSecond), elevation = radians(scene.orbit.elevationDeg);
+        const Vec3 toEye{std::cos(elevation) * std::sin(angle), std::sin(elevation), std::cos(elevation) * std::cos(angle)};
+        camera = lookingCamera(spec, scene.orbit.center + toEye * scene.orbit.radius, scene.orbit.center, spec.fovDeg);
+        break;
+    }
+    case CameraKind::path: {
+        const CameraKey key = keyAt(scene.cameraKeys, time);
+        camera = lookingCamera(spec, key.position, key.target, key.fovDeg);
+        break;
+    }
+    case CameraKind::modelCamera: camera = modelCamera(*findModelCamera(scene.cameraOfModel, content), time); break;
+    case CameraKind::poses:
+        camera.worldFromView = poseAt(content.poses, time);
+        camera.verticalFov = radians(spec.fovDeg);
+        camera.nearZ = spec.near;
+        camera.heightM = spec.heightM;
+        break;
+    case CameraKind::fitted: camera = fittedCamera(spec, content.bounds, aspect); break;
+    }
+    if (spec.projection == "orthographic") camera.projection = light::Camera::Projection::orthographic;
+    if (scene.intrinsics) {
+        const IntrinsicsSpec& i = *scene.intrinsics;
+        camera.intrinsics = light::Intrinsics{i.fx, i.fy, i.cx, i.cy, i.width, i.height};
+    }
+    return camera;
+}
+
+}  // namespace shoal::scene

@@ -1,0 +1,189 @@
+#include "scene/tree.h"
+
+#include <algorithm>
+#include <charconv>
+
+#define TOML_EXCEPTIONS 0
+#define TOML_ENABLE_UNRELEASED_FEATURES 0
+#include <toml++/toml.h>
+
+namespace shoal::scene {
+
+Tree* Tree::find(std::string_view key) {
+    for (auto& [name, member] : members)
+        if (name == key) return &member;
+    return nullptr;
+}
+
+const Tree* Tree::find(std::string_view key) const { return const_cast<Tree*>(this)->find(key); }
+
+std::vector<std::string> Tree::keys() const {
+    std::vector<std::string> names;
+    for (const auto& member : members) names.push_back(member.first);
+    return names;
+}
+
+const char* describeKind(const Tree& tree) {
+    if (tree.kind == Tree::Kind::table) return "a table";
+    if (tree.kind == Tree::Kind::array) return "an array";
+    switch (tree.value.kind) {
+    case FieldValue::Kind::boolean: return "true or false";
+    case FieldValue::Kind::number: return "a number";
+    case FieldValue::Kind::numbers: return "an array of numbers";
+    case FieldValue::Kind::text: return "a text";
+    }
+    return "a value";
+}
+
+namespace {
+
+Result<Tree> convert(const toml::node& node, const std::string& file);
+
+bool isNumber(const toml::node& node) { return node.is_integer() || node.is_floating_point(); }
+
+double numberOf(const toml::node& node) {
+    return node.is_integer() ? double(node.as_integer()->get()) : node.as_floating_point()->get();
+}
+
+Result<Tree> convertArray(const toml::array& array, Tree tree) {
+    if (!array.empty() && std::all_of(array.begin(), array.end(), isNumber)) {
+        tree.kind = Tree::Kind::value;
+        tree.value.kind = FieldValue::Kind::numbers;
+        for (const toml::node& element : array) tree.value.numbers.push_back(numberOf(element));
+        return tree;
+    }
+    tree.kind = Tree::Kind::array;
+    for (const toml::node& element : array) {
+        SHOAL_TRY_ASSIGN(Tree child, convert(element, tree.place.file));
+        tree.elements.push_back(std::move(child));
+    }
+    return tree;
+}
+
+Result<Tree> convertTable(const toml::table& table, Tree tree) {
+    tree.kind = Tree::Kind::table;
+    for (const auto& [key, value] : table) {
+        SHOAL_TRY_ASSIGN(Tree child, convert(value, tree.place.file));
+        child.place.line = int(key.source().begin.line);
+        tree.members.emplace_back(std::string(key.str()), std::move(child));
+    }
+    std::stable_sort(tree.members.begin(), tree.members.end(),
+                     [](const auto& a, const auto& b) { return a.second.place.line < b.second.place.line; });
+    return tree;
+}
+
+Result<Tree> convert(const toml::node& node, const std::string& file) {
+    Tree tree;
+    tree.place = {file, int(node.source().begin.line)};
+    if (const auto* table = node.as_table()) return convertTable(*table, std::move(tree));
+    if (const auto* array = node.as_array()) return convertArray(*array, std::move(tree));
+    tree.kind = Tree::Kind::value;
+    if (node.is_boolean()) {
+        tree.value.kind = FieldValue::Kind::boolean;
+        tree.value.boolean = node.as_boolean()->get();
+    } else if (isNumber(node)) {
+        tree.value.kind = FieldValue::Kind::number;
+        tree.value.numbers = {numberOf(node)};
+    } else if (const auto* text = node.as_string()) {
+        tree.value.kind = FieldValue::Kind::text;
+        tree.value.text = text->get();
+    } else {
+        return badInput(tree.place.describe() + ": found a date or time, expected a number, a text, true or false");
+    }
+    return tree;
+}
+
+// One step of an override's key: a name, then indices.
+struct Step {
+    std::string name;
+    std::vector<std::size_t> indices;
+};
+
+Result<std::vector<Step>> splitKey(const std::string& key) {
+    const Error malformed = usageError("--set " + key + ": expected a key such as camera.fovDeg or model[0].clip");
+    std::vector<Step> steps;
+    std::size_t at = 0;
+    while (at <= key.size()) {
+        const std::size_t end = std::min(key.find('.', at), key.size());
+        const std::string_view part = std::string_view(key).substr(at, end - at);
+        Step step;
+        const std::size_t bracket = std::min(part.find('['), part.size());
+        step.name = part.substr(0, bracket);
+        if (step.name.empty()) return malformed;
+        std::string_view rest = part.substr(bracket);
+        while (!rest.empty()) {
+            const std::size_t close = rest.find(']');
+            std::size_t index = 0;
+            if (rest[0] != '[' || close == std::string_view::npos || close > 9) return malformed;
+            const auto [last, error] = std::from_chars(rest.data() + 1, rest.data() + close, index);
+            if (error != std::errc() || last != rest.data() + close) return malformed;
+            step.indices.push_back(index);
+            rest.remove_prefix(close + 1);
+        }
+        steps.push_back(std::move(step));
+        at = end + 1;
+    }
+    return steps;
+}
+
+// The words after "=" as a tree: any TOML value, or else a bare text.
+Tree treeOfWords(const std::string& words) {
+    toml::parse_result parsed = toml::parse("value = " + words + "\n");
+    if (parsed && parsed.table().size() == 1) {
+        if (auto tree = convert(*parsed.table().get("value"), "")) {
+            const auto forgetPlaces = [](auto& self, Tree& t) -> void {
+                t.place = {};
+                for (auto& member : t.members) self(self, member.second);
+                for (Tree& element : t.elements) self(self, element);
+            };
+            forgetPlaces(forgetPlaces, *tree);
+            return *std::move(tree);
+        }
+    }
+    Tree text;
+    text.kind = Tree::Kind::value;
+    text.value.kind = FieldValue::Kind::text;
+    text.value.text = words;
+    return text;
+}
+
+}  // namespace
+
+Result<Tree> parseTree(std::string_view text, const std::filesystem::path& file) {
+    if (text.size() > kSceneTextLimit)
+        return badInput(file.string() + ": " + std::to_string(text.size()) + " bytes, expected a scene file of at most " +
+                        std::to_string(kSceneTextLimit));
+    const toml::parse_result parsed = toml::parse(text, file.string());
+    if (!parsed) {
+        const toml::parse_error& error = parsed.error();
+        std::string description(error.description());
+        std::replace(description.begin(), description.end(), '\n', ' ');
+        return badInput(file.string() + ":" + std::to_string(error.source().begin.line) + ": not valid TOML: " + description);
+    }
+    return convert(parsed.table(), file.string());
+}
+
+Result<void> applyOverride(Tree& root, const Override& change) {
+    SHOAL_TRY_ASSIGN(const std::vector<Step> steps, splitKey(change.key));
+    Tree* at = &root;
+    for (const Step& step : steps) {
+        if (at->kind != Tree::Kind::table)
+            return usageError("--set " + change.key + ": " + step.name + " is asked of " + describeKind(*at) + ", expected a table");
+        Tree* member = at->find(step.name);
+        if (!member) {
+            at->members.emplace_back(step.name, Tree{});
+            member = &at->members.back().second;
+        }
+        for (const std::size_t index : step.indices) {
+            if (member->kind != Tree::Kind::array || index >= member->elements.size())
+                return usageError("--set " + change.key + ": no element " + std::to_string(index) + ", " + step.name + " has " +
+                                  std::to_string(member->elements.size()));
+            member = &member->elements[index];
+        }
+        at = member;
+    }
+    *at = treeOfWords(change.value);
+    return {};
+}
+
+}  // namespace shoal::scene
