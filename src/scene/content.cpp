@@ -228,7 +228,7 @@ Result<void> makeLight(const Scene& scene, Content& content) {
 
 Result<void> readPoses(const Scene& scene, Content& content) {
     if (scene.cameraKind != CameraKind::poses) return {};
-    auto poses = io::readPoses(resolve(scene, scene.cameraPosesFile));
+    auto poses = io::readPoses(resolve(scene, scene.cameraPosesFile), scene.render.fps);
     if (!poses) return at(scene.cameraPlace, poses.error());
     for (const io::CameraPose& pose : *poses)
         content.poses.push_back({pose.time, compose(pose.position, pose.worldFromCamera, {1, 1, 1})});

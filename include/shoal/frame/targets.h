@@ -24,6 +24,8 @@ public:
 
     // Clears the G-buffer and binds it.
     void beginSurfaces() const;
+    // Copies the radiance of opaque surfaces to opaqueCopy() and makes its mips.
+    void copyOpaque() const;
     // Fills gbuffer().viewDepth from the depth buffer.
     void finishSurfaces(const Context& context) const;
 

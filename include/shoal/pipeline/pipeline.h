@@ -62,7 +62,7 @@ public:
     gl::TextureView radiance() const;     // linear, antialiased
     Result<ByteImage> readDisplay();      // row 0 on top
     Result<Image> readRadiance();         // RGBA
-    // The AOVs named, of the last frame's first sample (radiance: of all samples). Ask with setAovs before render.
+    // The AOVs named, of the last frame, sampled at pixel centres (radiance: antialiased). Ask with setAovs before render.
     void setAovs(std::span<const std::string> names);
     Result<std::vector<Layer>> readAovs();
     // Copies the display texture to a framebuffer of the host (0: the window), scaled to (width, height).

@@ -1,0 +1,320 @@
+// One frame, in the order of DESIGN §2: needed views, opaque surfaces, light, media, transparent surfaces, post.
+#include <shoal/pipeline/pipeline.h>
+
+#include <cmath>
+
+#include <epoxy/gl.h>
+
+#include <shoal/frame/geometry.h>
+#include <shoal/frame/lighting.h>
+#include <shoal/frame/post.h>
+#include <shoal/frame/shadows.h>
+#include <shoal/frame/targets.h>
+
+#include "pipeline/aov.h"
+
+namespace shoal::pipeline {
+
+namespace {
+
+// What a scene is on a device.
+struct Loaded {
+    scene::Scene scene;
+    scene::Content content;
+    frame::ShadowParams shadowParams;
+    frame::LightingParams lightingParams;
+    frame::PostParams postParams;
+    frame::ShadowSetup shadowSetup;
+    std::optional<frame::Geometry> geometry;
+    std::optional<frame::Shadows> shadows;
+    std::vector<frame::InstanceId> instances;   // one a content instance
+    bool moves = false;                         // whether any instance walks
+};
+
+// The technique tables of DESIGN §6 that this version does not draw yet.
+Result<void> refuseUnbuilt(const scene::Scene& scene) {
+    for (const scene::RawTable& table : scene.tables) {
+        const std::string root = table.name.substr(0, table.name.find('.'));
+        if (root == "water" || root == "crowd" || root == "fluid" || root == "volume")
+            return badInput(table.place.describe() + ": [" + table.name + "]: this version of shoal has no " + root + " yet");
+        if (root != table.name)
+            return badInput(table.place.describe() + ": [" + table.name + "]: unknown table, expected plain values in [" + root + "]");
+    }
+    return {};
+}
+
+template <class Params>
+Result<void> bindNamed(const scene::Scene& scene, const char* name, Params& params) {
+    if (const scene::RawTable* table = scene.table(name)) return scene::bindTable(*table, params);
+    return {};
+}
+
+Result<void> addInstances(Loaded& loaded) {
+    std::vector<frame::ModelId> ids;
+    for (const Model& model : loaded.content.models) {
+        SHOAL_TRY_ASSIGN(const frame::ModelId id, loaded.geometry->addModel(model));
+        ids.push_back(id);
+    }
+    for (const scene::Instance& instance : loaded.content.instances) {
+        frame::InstanceDesc desc;
+        desc.model = ids[std::size_t(instance.model)];
+        desc.worldFromModel = scene::transformAt(instance, 0);
+        desc.clip = instance.clip;
+        desc.speed = instance.speed;
+        desc.startTime = instance.startTime;
+        desc.loop = instance.loop;
+        desc.castsShadow = instance.castsShadow;
+        desc.visible = instance.visible;
+        desc.hiddenNodes = instance.hide;
+        desc.tint = {instance.tint.x, instance.tint.y, instance.tint.z, 1};
+        SHOAL_TRY_ASSIGN(const frame::InstanceId id, loaded.geometry->addInstance(desc));
+        loaded.instances.push_back(id);
+        loaded.moves = loaded.moves || instance.walk.has_value();
+    }
+    return {};
+}
+
+}  // namespace
+
+struct Pipeline::State {
+    gl::Device& device;
+    gl::FrameTimer timer;
+    frame::Lighting lighting;
+    frame::Post post;
+    std::optional<frame::Targets> targets;
+    std::unique_ptr<Loaded> loaded;
+    std::vector<std::string> aovNames;
+    light::View view;
+    bool hasView = false;
+
+    State(gl::Device& device, frame::Lighting lighting, frame::Post post)
+        : device(device), timer(device), lighting(std::move(lighting)), post(std::move(post)) {}
+
+    Result<void> prepareTargets(int width, int height);
+    frame::Context makeContext(const FrameRequest& request);
+    void moveInstances(float time);
+    void drawNeededViews(const frame::Context& context);
+    void drawSample(const frame::Context& context);
+    frame::Lights lights() const;
+    bool wantsTerms() const;
+};
+
+Result<void> Pipeline::State::prepareTargets(int width, int height) {
+    if (width < 1 || height < 1 || width > 16384 || height > 16384)
+        return badInput("picture size: found " + std::to_string(width) + " x " + std::to_string(height) + ", expected 1 .. 16384 pixels");
+    if (targets) return targets->resize(width, height);
+    SHOAL_TRY_ASSIGN(targets, frame::Targets::create(device, width, height));
+    return {};
+}
+
+frame::Context Pipeline::State::makeContext(const FrameRequest& request) {
+    const float aspect = float(request.width) / float(request.height);
+    const auto viewAt = [&](float time) {
+        return light::makeView(scene::cameraAt(loaded->scene, loaded->content, time, aspect), request.width, request.height);
+    };
+    frame::Context context;
+    context.device = &device;
+    context.timer = &timer;
+    context.view = request.camera ? light::makeView(*request.camera, request.width, request.height) : viewAt(request.time);
+    context.time = request.time;
+    context.timeStep = request.frameIndex == 0 ? 0 : request.timeStep;
+    context.frameIndex = request.frameIndex;
+    context.previousView = context.view;
+    if (request.frameIndex > 0) {
+        if (!request.camera) context.previousView = viewAt(request.time - request.timeStep);
+        else if (hasView && view.width == request.width && view.height == request.height) context.previousView = view;
+    }
+    view = context.view;
+    hasView = true;
+    return context;
+}
+
+void Pipeline::State::moveInstances(float time) {
+    if (!loaded->moves) return;
+    for (std::size_t i = 0; i < loaded->instances.size(); ++i) {
+        const scene::Instance& instance = loaded->content.instances[i];
+        if (instance.walk) loaded->geometry->setTransform(loaded->instances[i], scene::transformAt(instance, time));
+    }
+}
+
+void Pipeline::State::drawNeededViews(const frame::Context& context) {
+    loaded->shadows->prepare(context, loaded->shadowParams, loaded->content.sun ? &*loaded->content.sun : nullptr, loaded->content.lights,
+                             loaded->geometry->bounds());
+    gl::PassScope pass(&timer, "shadow views");
+    for (frame::NeededView& needed : loaded->shadows->neededViews()) {
+        if (needed.unchanged && !loaded->geometry->changed(needed.view)) continue;
+        loaded->geometry->drawDepth(context, needed);
+    }
+}
+
+frame::Lights Pipeline::State::lights() const {
+    return {loaded->content.sun ? &*loaded->content.sun : nullptr, loaded->content.lights};
+}
+
+bool Pipeline::State::wantsTerms() const {
+    for (const std::string& name : aovNames)
+        if (name == "direct" || name == "shadow" || name == "occlusion") return true;
+    return false;
+}
+
+void Pipeline::State::drawSample(const frame::Context& context) {
+    frame::Geometry& geometry = *loaded->geometry;
+    {
+        gl::PassScope pass(&timer, "surfaces");
+        targets->beginSurfaces();
+        geometry.drawSurfaces(context, targets->gbuffer());
+        targets->finishSurfaces(context);
+    }
+    {
+        gl::PassScope pass(&timer, "occlusion");
+        lighting.prepare(context, loaded->lightingParams, lights(), *targets);
+    }
+    {
+        gl::PassScope pass(&timer, "shade");
+        lighting.shade(context, loaded->lightingParams, *loaded->shadows, {}, *targets);
+    }
+    if (geometry.hasTransparent()) {
+        gl::PassScope pass(&timer, "transparent");
+        targets->copyOpaque();
+        targets->forward().bind();
+        lighting.bind();
+        loaded->shadows->bind();
+        geometry.drawTransparent(context, targets->opaqueCopy(), targets->gbuffer().viewDepth);
+    }
+}
+
+Pipeline::Pipeline(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Pipeline::~Pipeline() = default;
+
+Result<std::unique_ptr<Pipeline>> Pipeline::create(gl::Device& device) {
+    SHOAL_TRY_ASSIGN(frame::Lighting lighting, frame::Lighting::create(device));
+    SHOAL_TRY_ASSIGN(frame::Post post, frame::Post::create(device));
+    return std::unique_ptr<Pipeline>(new Pipeline(std::make_unique<State>(device, std::move(lighting), std::move(post))));
+}
+
+Result<void> Pipeline::setScene(const scene::Scene& scene, scene::Content content) {
+    auto loaded = std::make_unique<Loaded>();
+    SHOAL_TRY(refuseUnbuilt(scene));
+    SHOAL_TRY(bindNamed(scene, "shadows", loaded->shadowParams));
+    SHOAL_TRY(bindNamed(scene, "lighting", loaded->lightingParams));
+    SHOAL_TRY(bindNamed(scene, "post", loaded->postParams));
+    loaded->lightingParams.environmentIntensity *= scene.environment.intensity;
+    loaded->scene = scene;
+    loaded->content = std::move(content);
+    SHOAL_TRY_ASSIGN(loaded->geometry, frame::Geometry::create(state_->device));
+    SHOAL_TRY_ASSIGN(loaded->shadows, frame::Shadows::create(state_->device, loaded->shadowSetup));
+    SHOAL_TRY(addInstances(*loaded));
+    light::Environment black;
+    black.radiance = Image(8, 4, 3);
+    SHOAL_TRY(state_->lighting.setEnvironment(loaded->content.environment ? *loaded->content.environment : black));
+    state_->loaded = std::move(loaded);
+    state_->hasView = false;
+    return {};
+}
+
+Result<void> Pipeline::open(const std::filesystem::path& file, std::span<const scene::Override> overrides) {
+    SHOAL_TRY_ASSIGN(const scene::Scene scene, scene::openScene(file, overrides));
+    SHOAL_TRY_ASSIGN(scene::Content content,
+                     scene::loadContent(scene, [this](LogLevel level, std::string_view message) { state_->device.log(level, message); }));
+    return setScene(scene, std::move(content));
+}
+
+const scene::Scene& Pipeline::scene() const {
+    SHOAL_ASSERT_MSG(state_->loaded, "setScene comes first");
+    return state_->loaded->scene;
+}
+
+const scene::Content& Pipeline::content() const {
+    SHOAL_ASSERT_MSG(state_->loaded, "setScene comes first");
+    return state_->loaded->content;
+}
+
+Result<void> Pipeline::render(const FrameRequest& request) {
+    State& s = *state_;
+    SHOAL_ASSERT_MSG(s.loaded, "setScene comes before render");
+    SHOAL_TRY(s.prepareTargets(request.width, request.height));
+    gl::setKnownState();
+    s.timer.beginFrame();
+    frame::Context context = s.makeContext(request);
+    const bool temporal = request.antialiasing == "temporal";
+    const int sampleCount = request.antialiasing == "supersample" ? std::max(request.samples, 1) : 1;
+    {
+        gl::PassScope pass(&s.timer, "pose and skin");
+        s.moveInstances(request.time);
+        s.loaded->geometry->update(context);
+    }
+    s.drawNeededViews(context);
+    s.lighting.setTermsWanted(false);
+    if (!temporal) s.post.beginAccumulation(request.width, request.height);
+    for (int i = 0; i < sampleCount; ++i) {
+        context.sampleIndex = std::uint32_t(i);
+        if (temporal) context.jitterPx = frame::samplePattern(int(request.frameIndex % 16), 16);
+        else if (sampleCount > 1) context.jitterPx = frame::samplePattern(i, sampleCount);
+        s.drawSample(context);
+        gl::PassScope pass(&s.timer, "antialias");
+        if (temporal) s.post.temporal(context, *s.targets, request.frameIndex == 0);
+        else s.post.accumulate(context, *s.targets);
+    }
+    {
+        gl::PassScope pass(&s.timer, "present");
+        s.post.present(context, s.loaded->postParams, request.frameIndex == 0);
+    }
+    s.timer.endFrame();
+    const bool centred = context.jitterPx == Vec2{};
+    if (!s.aovNames.empty() && !(centred && !s.wantsTerms())) {
+        context.jitterPx = {};
+        context.sampleIndex = 0;
+        s.lighting.setTermsWanted(s.wantsTerms());
+        s.drawSample(context);
+    }
+    return {};
+}
+
+gl::TextureView Pipeline::display() const { return state_->post.display(); }
+gl::TextureView Pipeline::radiance() const { return state_->post.radiance(); }
+Result<ByteImage> Pipeline::readDisplay() { return frame::readByteImage(state_->device, display()); }
+
+Result<Image> Pipeline::readRadiance() {
+    SHOAL_TRY_ASSIGN(Image image, frame::readImage(state_->device, radiance(), 4));
+    image.channelNames = {"R", "G", "B", "A"};
+    return image;
+}
+
+void Pipeline::setAovs(std::span<const std::string> names) { state_->aovNames.assign(names.begin(), names.end()); }
+
+Result<std::vector<Layer>> Pipeline::readAovs() {
+    SHOAL_ASSERT_MSG(state_->targets, "render comes before readAovs");
+    std::vector<Layer> layers;
+    for (const std::string& name : state_->aovNames) {
+        SHOAL_TRY_ASSIGN(Layer layer, readAov({state_->device, *state_->targets, state_->lighting, state_->post}, name));
+        layers.push_back(std::move(layer));
+    }
+    return layers;
+}
+
+void Pipeline::blit(std::uint32_t framebuffer, int width, int height) {
+    const gl::TextureView from = display();
+    GLuint source = 0;
+    glCreateFramebuffers(1, &source);
+    glNamedFramebufferTexture(source, GL_COLOR_ATTACHMENT0, from.name, 0);
+    glBlitNamedFramebuffer(source, framebuffer, 0, 0, from.width, from.height, 0, 0, width, height, GL_COLOR_BUFFER_BIT,
+                           from.width == width && from.height == height ? GL_NEAREST : GL_LINEAR);
+    glDeleteFramebuffers(1, &source);
+}
+
+light::View Pipeline::view() const { return state_->view; }
+void Pipeline::setTiming(bool on) { state_->timer.setEnabled(on); }
+
+frame::Stats Pipeline::stats() const {
+    frame::Stats stats;
+    stats.passes = state_->timer.passes();
+    stats.bytes = state_->device.liveBytes();
+    if (state_->loaded) {
+        const frame::GeometryStats& g = state_->loaded->geometry->stats();
+        stats.counts = {{"drawn triangles", g.drawnTriangles}, {"draws", g.draws}, {"instances", g.instances},
+                        {"skinned vertices", g.skinnedVertices}};
+    }
+    return stats;
+}
+
+}  // namespace shoal::pipeline
