@@ -1,0 +1,42 @@
+#include <shoal/io/model.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include <fmt/format.h>
+
+#include <shoal/io/file.h>
+
+#include "io/assimp_model.h"
+
+namespace shoal::io {
+
+namespace {
+
+std::string lowerExtension(const std::filesystem::path& path) {
+    std::string extension = path.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+    return extension;
+}
+
+bool isGltf(const std::string& extension) { return extension == ".gltf" || extension == ".glb"; }
+
+}  // namespace
+
+bool isModelFile(const std::filesystem::path& path) {
+    const std::string extension = lowerExtension(path);
+    return isGltf(extension) || isAssimpExtension(extension);
+}
+
+Result<Model> readModel(const std::filesystem::path& path, const ModelReadOptions& options) {
+    const std::string extension = lowerExtension(path);
+    if (!isGltf(extension) && !isAssimpExtension(extension))
+        return badInput(fmt::format("{}: unknown model format \"{}\", expected .gltf, .glb, .obj, .ply, .stl, .fbx, .dae, "
+                                    ".3ds or another that assimp reads", path.string(), extension));
+    SHOAL_TRY_ASSIGN(const std::vector<std::byte> bytes, readFile(path));
+    if (!isGltf(extension)) return readAssimp(path, bytes, options);
+    const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
+    return readGltf(bytes, folder, path.string(), options);
+}
+
+}  // namespace shoal::io
