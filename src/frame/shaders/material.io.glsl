@@ -14,8 +14,8 @@ layout(binding = SHOAL_UNIT_EMISSION) uniform sampler2D emissionTexture;
 #endif
 
 // KHR_texture_transform; uvs holds both sets.
-vec2 materialUv(int texture, vec4 uvs) {
-    vec4 rowU = material.uv[2 * texture], rowV = material.uv[2 * texture + 1];
+vec2 materialUv(int slot, vec4 uvs) {
+    vec4 rowU = material.uv[2 * slot], rowV = material.uv[2 * slot + 1];
     vec2 uv = rowU.w > 0.5 ? uvs.zw : uvs.xy;
     return vec2(dot(rowU.xy, uv) + rowU.z, dot(rowV.xy, uv) + rowV.z);
 }
