@@ -222,6 +222,10 @@ Device::Device(std::unique_ptr<State> state) : state_(std::move(state)) {
     state_->programs = std::make_unique<ProgramCache>(*this, state_->shaderDir);
 }
 
+std::unique_ptr<Device> Device::adopt(std::unique_ptr<State> state) {
+    return std::unique_ptr<Device>(new Device(std::move(state)));
+}
+
 Device::~Device() {
     {
         const ScopedCurrent current(*state_);
@@ -247,7 +251,7 @@ Result<std::unique_ptr<Device>> Device::create(const DeviceOptions& options) {
         if (attempt.problem.empty()) {
             const bool hopeForMore = wanted(options.device) == Want::any && attempt.state->info.software &&
                                      !candidate.saysSoftware && candidate.device;
-            if (!hopeForMore) return std::unique_ptr<Device>(new Device(std::move(attempt.state)));
+            if (!hopeForMore) return adopt(std::move(attempt.state));
             if (!reserve) reserve = std::move(attempt.state);
             continue;
         }
@@ -256,7 +260,7 @@ Result<std::unique_ptr<Device>> Device::create(const DeviceOptions& options) {
     }
     if (reserve) {
         SHOAL_TRY(switchTo(*reserve->context));
-        return std::unique_ptr<Device>(new Device(std::move(reserve)));
+        return adopt(std::move(reserve));
     }
     if (tried.empty()) tried = "EGL lists no such device";
     return noDevice(fmt::format("no usable OpenGL 4.5 device for \"{}\"; tried {}", options.device, tried));
@@ -266,7 +270,7 @@ Result<std::unique_ptr<Device>> Device::fromCurrentContext(const DeviceOptions& 
     if (std::string problem = missingGlLibrary(false); !problem.empty()) return noDevice(problem);
     if (!glGetString(GL_VERSION)) return noDevice("no OpenGL context is current on this thread; make the host's current first");
     SHOAL_TRY_ASSIGN(auto state, adoptCurrentContext(options, "host", nullptr));
-    return std::unique_ptr<Device>(new Device(std::move(state)));
+    return adopt(std::move(state));
 }
 
 Result<void> Device::makeCurrent() {

@@ -70,6 +70,7 @@ public:
 
     struct State;
     State& state() { return *state_; }
+    static std::unique_ptr<Device> adopt(std::unique_ptr<State> state);   // for Window
 
 private:
     explicit Device(std::unique_ptr<State> state);
@@ -79,11 +80,21 @@ private:
 // What can draw on this machine: every EGL device that gives a GL 4.5 core context, and those that do not with the reason.
 std::vector<DeviceInfo> listDevices();
 
-// Sets clip control (lower left, zero to one), disables what a host may have left on (scissor, sRGB conversion aside), pixel store to
-// defaults. The pipeline calls it at the start of a frame: shoal never relies on a host's state.
+// Puts the context into the state that Shoal's passes start from. The pipeline calls it at the start of a frame: Shoal never relies on
+// a host's state.
+// - Clip control lower left and zero to one (reversed z: depth function GREATER, cleared to 0, depth range 0 to 1).
+// - Off: depth and stencil test, blending, culling, scissor, logic op, dither, sRGB conversion of framebuffers, depth clamp, polygon
+//   offset and smoothing, primitive restart, rasterizer discard, clip distances, sample masks and alpha to coverage. On:
+//   multisample, seamless cube maps. Masks all on, polygons filled, front faces counter-clockwise.
+// - Pixel transfer tightly packed, without pixel buffers; no sampler objects on texture units 0 to 31; no program, program
+//   pipeline, vertex array or indirect buffers.
+// Not set: viewport, framebuffer, textures, images, buffers. Each pass sets its own.
 void setKnownState();
 
-// Saves the state that shoal leaves dirty, restores it on destruction. For hosts; listed in docs/embedding.md.
+// Saves the state that Shoal leaves dirty, restores it on destruction. For hosts; listed in docs/embedding.md: all that
+// setKnownState() sets, viewports, scissors and depth ranges 0 to 15, blending and colour masks of draw buffers 0 to 7,
+// framebuffers, texture units 0 to 31 (every target, and the sampler), image units 0 to 7, uniform and storage buffer bindings 0 to 15
+// and the plain bindings of both. Cannot be saved, so must not be active: conditional rendering and transform feedback.
 class StateGuard {
 public:
     StateGuard();
