@@ -1,0 +1,107 @@
+// shoal render
+#include <unistd.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+#include <shoal/core/progress.h>
+#include <shoal/gl/device.h>
+#include <shoal/pipeline/pipeline.h>
+
+#include "verbs.h"
+
+namespace shoal::app {
+
+namespace {
+
+// The command line as overrides of the scene, so that one place checks every value.
+Result<std::vector<scene::Override>> overridesOf(const RenderOptions& o) {
+    SHOAL_TRY_ASSIGN(std::vector<scene::Override> overrides, parseOverrides(o.sets));
+    if (!o.size.empty()) {
+        SHOAL_TRY_ASSIGN(const IVec2 size, parseSize(o.size));
+        overrides.push_back({"render.width", std::to_string(size.x)});
+        overrides.push_back({"render.height", std::to_string(size.y)});
+    }
+    if (o.fps) overrides.push_back({"render.fps", std::to_string(*o.fps)});
+    if (o.time) overrides.push_back({"render.time", std::to_string(*o.time)});
+    if (o.samples) overrides.push_back({"render.samples", std::to_string(*o.samples)});
+    if (o.seed) overrides.push_back({"render.seed", std::to_string(*o.seed)});
+    if (!o.antialiasing.empty()) overrides.push_back({"render.antialiasing", o.antialiasing});
+    if (o.transparent) overrides.push_back({"lighting.background", "transparent"});
+    if (!o.up.empty()) overrides.push_back({"model[0].up", o.up});
+    if (o.scale != 0) overrides.push_back({"model[0].unit", std::to_string(o.scale)});
+    return overrides;
+}
+
+pipeline::FrameRequest requestOf(const scene::RenderSpec& spec) {
+    pipeline::FrameRequest request;
+    request.width = spec.width;
+    request.height = spec.height;
+    request.time = spec.time;
+    request.antialiasing = spec.antialiasing;
+    request.samples = spec.samples;
+    return request;
+}
+
+bool isFilm(const std::string& output) {
+    const std::string extension = std::filesystem::path(output).extension().string();
+    return extension == ".mp4" || extension == ".mov" || extension == ".m4v";
+}
+
+Result<void> run(const RenderOptions& o) {
+    const auto start = std::chrono::steady_clock::now();
+    SHOAL_TRY_ASSIGN(const std::vector<scene::Override> overrides, overridesOf(o));
+    pipeline::OutputOptions output;
+    SHOAL_TRY_ASSIGN(output.aovs, pipeline::parseAovList(o.aovs));
+    if (!o.frames.empty()) {
+        SHOAL_TRY_ASSIGN(const auto frames, parseFrames(o.frames));
+        output.firstFrame = frames.first;
+        output.endFrame = frames.second;
+        output.isStill = false;
+    }
+    // A scene that cannot be read is told before a device is asked for.
+    SHOAL_TRY_ASSIGN(const scene::Scene scene, scene::openScene(o.scene, overrides));
+    const LogSink log = o.quiet ? nullSink() : stderrSink(o.debug ? LogLevel::debug : LogLevel::warning);
+    SHOAL_TRY_ASSIGN(scene::Content content, scene::loadContent(scene, log));
+    gl::DeviceOptions deviceOptions;
+    deviceOptions.device = o.device;
+    deviceOptions.log = log;
+    deviceOptions.debug = o.debug;
+    SHOAL_TRY_ASSIGN(const auto device, gl::Device::create(deviceOptions));
+    SHOAL_TRY_ASSIGN(const auto pipeline, pipeline::Pipeline::create(*device));
+    SHOAL_TRY(pipeline->setScene(scene, std::move(content)));
+
+    output.fps = scene.render.fps;
+    output.startTime = scene.render.time;
+    output.transparent = o.transparent;
+    output.jpegQuality = o.quality;
+    output.posesFile = o.posesFile;
+    if (output.isStill && isFilm(o.output)) {
+        output.isStill = false;
+        output.endFrame = std::max(1, int(std::lround(scene.render.duration * scene.render.fps)));
+    }
+    std::optional<ProgressBar> bar;
+    if (!o.quiet && !output.isStill) {
+        bar.emplace("rendering", "frames", stderr);
+        output.progress = [&](std::uint64_t done, std::uint64_t total) { return bar->update(done, total), true; };
+    }
+    SHOAL_TRY_ASSIGN(const auto written, pipeline::renderToFile(*pipeline, requestOf(scene.render), o.output, output));
+    if (bar) bar->finish();
+    if (o.quiet) return {};
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const int frames = output.isStill ? 1 : output.endFrame - output.firstFrame;
+    std::printf("%s%s: %d x %d, %d frame%s in %.2f s on %s\n", written.front().c_str(), written.size() > 1 ? " ..." : "",
+                scene.render.width, scene.render.height, frames, frames == 1 ? "" : "s", seconds, device->info().renderer.c_str());
+    return {};
+}
+
+}  // namespace
+
+int render(const RenderOptions& options) {
+    const Result<void> done = run(options);
+    return done ? kDone : report(done.error());
+}
+
+}  // namespace shoal::app
