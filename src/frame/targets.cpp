@@ -78,6 +78,12 @@ void Targets::beginSurfaces() const {
     glClearNamedFramebufferfv(surfaces_.name(), GL_DEPTH, 0, &farAway);
 }
 
+void Targets::copyOpaque() const {
+    glCopyImageSubData(radiance_.name(), GL_TEXTURE_2D, 0, 0, 0, 0, opaqueCopy_.name(), GL_TEXTURE_2D, 0, 0, 0, 0, gbuffer_.width,
+                       gbuffer_.height, 1);
+    glGenerateTextureMipmap(opaqueCopy_.name());
+}
+
 void Targets::finishSurfaces(const Context& context) const {
     const gl::PassScope pass(context.timer, "linearize depth");
     const Mat4& p = context.view.clipFromView;
