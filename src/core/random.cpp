@@ -46,7 +46,8 @@ std::uint32_t sobolSecond(std::uint32_t index) {
 
 }  // namespace
 
-// pcg3d's mixing step three times instead of twice: with small counters the paper's two leave a bias in the low bits.
+// pcg3d's mixing step three times instead of twice: after two the high bits of a do not reach the low bits of the
+// result.
 std::uint32_t randomBits(std::uint32_t seed, std::uint32_t a, std::uint32_t b) {
     std::uint32_t x = a * 1664525u + 1013904223u;
     std::uint32_t y = b * 1664525u + 1013904223u;

@@ -1,7 +1,9 @@
 // Chunk bounds, coverage and bits must not depend on the number of threads.
+#include <oneapi/tbb/task_arena.h>
 #include <shoal/core/parallel.h>
 #include <shoal/core/random.h>
 #include <atomic>
+#include <chrono>
 #include <mutex>
 #include <set>
 #include <thread>
@@ -84,21 +86,25 @@ TEST(ParallelNested, InnerLoopsGiveTheSameSums) {
     }
 }
 
-// A body that uses thread-local scratch across an inner loop must not be entered again by its own thread meanwhile.
+// A body that uses thread-local scratch across an inner loop must not be entered again by its own thread meanwhile. An
+// arena of eight threads on any machine, and naps, make waiting threads look for other work.
 TEST(ParallelNested, WaitingThreadTakesNoOuterChunk) {
     static thread_local int depth = 0;
     std::atomic<int> deepest = 0;
-    parallelFor(200, 1, [&](std::size_t) {
-        ++depth;
-        int seen = deepest.load();
-        while (depth > seen && !deepest.compare_exchange_weak(seen, depth)) {
-        }
-        std::atomic<int> inner = 0;
-        parallelFor(50, 1, [&](std::size_t k) {
-            for (std::uint32_t n = 0; n < 200; ++n) inner += int(randomBits(n, std::uint32_t(k)) & 1u);
+    const ThreadLimit limit(8);  // lifts the default of one a core
+    tbb::task_arena arena(8);
+    arena.execute([&] {
+        parallelFor(100, 1, [&](std::size_t i) {
+            int seen = deepest.load();
+            ++depth;
+            while (depth > seen && !deepest.compare_exchange_weak(seen, depth)) {
+            }
+            parallelFor(8, 1, [&](std::size_t k) {
+                const std::uint32_t nap = i < 50 && k % 2 == 1 ? 2000 : 20;
+                std::this_thread::sleep_for(std::chrono::microseconds(nap));
+            });
+            --depth;
         });
-        EXPECT_GT(inner.load(), 0);
-        --depth;
     });
     EXPECT_EQ(deepest.load(), 1);
 }
