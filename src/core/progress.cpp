@@ -74,7 +74,9 @@ void ProgressBar::update(std::uint64_t done, std::uint64_t total) {
     done_ = done;
     total_ = total;
     const auto now = std::chrono::steady_clock::now();
-    if (finished_ || Seconds(now - last_).count() < (terminal_ ? kBarInterval : kLineInterval)) return;
+    const bool first = terminal_ && !drawn_;  // at once: the first piece may take minutes
+    const double interval = terminal_ ? kBarInterval : kLineInterval;
+    if (finished_ || (!first && Seconds(now - last_).count() < interval)) return;
     last_ = now;
     draw(Seconds(now - start_).count());
 }

@@ -96,6 +96,13 @@ TEST(Params, NanAndInfinityAreRefused) {
     EXPECT_EQ(set("offset", "[0, nan]"), "offset: found nan in [0, nan], expected a finite number");
 }
 
+TEST(Params, InfinityIsRefusedEvenByAnInfiniteRange) {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    EXPECT_EQ(detail::checkField(float(kInfinity), Field{"x", "m", 0, kInfinity}),
+              "x: found inf, expected at least 0 m");
+    EXPECT_EQ(detail::checkField(1e35f, Field{"x", "m", 0, kInfinity}), "");
+}
+
 TEST(Params, IntegersRefuseFractionsAndWhatDoesNotFit) {
     EXPECT_EQ(set("steps", "2.5"), "steps: found 2.5, expected an integer, 1 .. 64");
     EXPECT_EQ(set("steps", "2.0"), "");

@@ -140,6 +140,16 @@ TEST(PoseModel, ASingleKeyHoldsForAllTimes) {
     EXPECT_EQ(origin(poseAt(spline, 4, true), 0), (Vec3{1, 2, 3}));
 }
 
+TEST(PoseModel, AShorterChannelHoldsItsLastKeyWhileTheClipGoesOn) {
+    Model model = oneChannel(ChannelTarget::translation, Interpolation::linear, {0, 1}, {1, 0, 0, 2, 0, 0});
+    model.clips[0].channels.push_back({0, ChannelTarget::scale, Interpolation::linear, {0, 4}, {1, 1, 1, 5, 5, 5}});
+    model.clips[0].duration = 4;
+    for (const float t : {1.0f, 1.5f, 3.0f}) EXPECT_EQ(origin(poseAt(model, t), 0).x, 2);
+    EXPECT_EQ(determinant3(poseAt(model, 4).modelFromNode[0]), 125);
+    model.clips[0].duration = 0;  // not told: the beginning
+    EXPECT_EQ(origin(poseAt(model, 3, true), 0).x, 1);
+}
+
 TEST(PoseModel, AChannelWithoutKeysChangesNothing) {
     Model model = oneChannel(ChannelTarget::translation, Interpolation::linear, {}, {});
     model.nodes[0].translation = {4, 5, 6};
