@@ -66,6 +66,7 @@ void addInfo(CLI::App& app, InfoOptions& o) {
     CLI::App* verb = app.add_subcommand("info", "Tells what is in a file, or what can draw on this machine");
     verb->add_option("file", o.files, "models, scenes, pictures, assets, camera poses");
     verb->add_flag("--devices", o.devices, "lists what can draw here");
+    verb->add_flag("--keys", o.keys, "every key of a scene file, with unit, range and default (Markdown)");
     verb->footer("\nExamples:\n  shoal info scenes/plaza.toml\n  shoal info --devices\n");
 }
 

@@ -115,7 +115,8 @@ int listDevices() {
 
 int info(const InfoOptions& options) {
     if (options.devices) return listDevices();
-    if (options.files.empty()) return report(usageError("info: found no file, expected at least one (or --devices)"));
+    if (options.keys) return printKeys();
+    if (options.files.empty()) return report(usageError("info: found no file, expected at least one (or --devices, --keys)"));
     for (const std::string& file : options.files)
         if (const Result<void> told = fileInfo(file); !told) return report(told.error());
     return kDone;

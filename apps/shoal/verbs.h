@@ -31,9 +31,11 @@ int render(const RenderOptions& options);
 
 struct InfoOptions {
     std::vector<std::string> files;
-    bool devices = false;
+    bool devices = false, keys = false;
 };
 int info(const InfoOptions& options);
+// Every key of a scene file as Markdown tables (`shoal info --keys`).
+int printKeys();
 
 struct CompareOptions {
     std::string a, b, differenceFile;
