@@ -184,6 +184,7 @@ void readPart(Imf::MultiPartInputFile& file, int part, std::map<std::string, Ima
 }  // namespace
 
 Result<ImageInfo> exrInfo(Bytes bytes, const std::string& name) {
+    if (const std::string wrong = checkExrHeaders(bytes); !wrong.empty()) return badExr(name, wrong);
     try {
         MemoryStream stream(bytes, name);
         Imf::MultiPartInputFile file(stream, 0);
@@ -222,6 +223,7 @@ Result<ImageInfo> exrInfo(Bytes bytes, const std::string& name) {
 }
 
 Result<std::vector<Layer>> decodeExr(Bytes bytes, const std::string& name) {
+    if (const std::string wrong = checkExrHeaders(bytes); !wrong.empty()) return badExr(name, wrong);
     try {
         MemoryStream stream(bytes, name);
         Imf::MultiPartInputFile file(stream, 0);

@@ -208,6 +208,14 @@ TEST(ImageExr, RefusesHugeHeadersBeforeTakingMemory) {
     ASSERT_FALSE(large);
     EXPECT_NE(large.error().message.find("asks for"), std::string::npos) << large.error().message;
     EXPECT_NE(readImage(withSize(20000, 1), "e").error().message.find("the limit is 16384"), std::string::npos);
+    // The table of chunks, which OpenEXR makes as large as the header says, here 16 GiB.
+    std::vector<std::byte> parts = test::makeTwoPartExr();
+    const std::string_view text(reinterpret_cast<const char*>(parts.data()), parts.size());
+    const std::size_t countAt = text.find("chunkCount") + std::string_view("chunkCount\0int\0....", 19).size();
+    const std::int32_t count = 0x7fffffff;
+    std::memcpy(parts.data() + countAt, &count, sizeof count);
+    EXPECT_NE(readImage(parts, "e").error().message.find("2147483647 chunks"), std::string::npos)
+        << readImage(parts, "e").error().message;
 }
 
 TEST(ImageExr, ReadsEveryEnvironment) {
@@ -222,11 +230,18 @@ TEST(ImageExr, ReadsEveryEnvironment) {
         EXPECT_EQ(image->height, 512) << entry.path();
         ASSERT_GE(image->channelCount, 3) << entry.path();
         double sum = 0;
+        float least = 0;
+        std::size_t negativeCount = 0;
         for (const float value : image->pixels) {
-            // DWAB rings: a dark pixel of the forest is stored as -5e-6. It is read as it is; lights clamp.
-            ASSERT_TRUE(std::isfinite(value) && value >= -1e-4f) << entry.path() << " " << value;
+            ASSERT_TRUE(std::isfinite(value)) << entry.path();
+            if (value < 0) least = std::min(least, value), ++negativeCount;
             sum += value;
         }
+        // The EXRs went through DWAB once, which rings: a few dark values are stored below zero, in the ZIP copies
+        // too. They are read as they are; lights clamp.
+        const bool dwab = entry.path().extension() == ".exr";
+        EXPECT_GE(least, dwab ? -0.01f : 0.0f) << entry.path();
+        EXPECT_LE(negativeCount, dwab ? image->pixels.size() / 100 : 0) << entry.path();
         EXPECT_GT(sum / double(image->pixels.size()), 0.001) << entry.path();
     }
     EXPECT_EQ(fileCount, 10);
