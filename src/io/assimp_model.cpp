@@ -1,28 +1,21 @@
 // OBJ, PLY, STL, FBX, Collada, 3DS and more through assimp: meshes, materials, node tree, skins and node animations.
-// Morph targets, cameras and lights of these formats are left out. assimp is run behind checks of the file before and of
+// Morph targets, cameras and lights of these formats are left out; materials are in assimp_material.cpp. assimp is run behind checks of the file before and of
 // the scene after; its own faults are not chased.
 #include "io/assimp_model.h"
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <cmath>
-#include <cstring>
 #include <exception>
 #include <map>
-#include <optional>
 
 #include <assimp/config.h>
-#include <assimp/material.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <assimp/Importer.hpp>
 #include <fmt/format.h>
 
-#include <shoal/core/parallel.h>
-#include <shoal/io/file.h>
-#include <shoal/io/image.h>
-
+#include "io/assimp_parts.h"
 #include "io/gltf_parts.h"
 #include "io/mesh_finish.h"
 #include "io/model_axes.h"
@@ -35,7 +28,6 @@ constexpr std::string_view kExtensions[] = {".obj", ".ply", ".stl", ".fbx", ".da
                                             ".blend", ".ac", ".ase", ".3mf", ".ms3d", ".b3d", ".md5mesh", ".dxf"};
 constexpr float kCreaseDegrees = 40;         // sharper edges stay edges where the file has no normals
 constexpr float kCoordinateLimit = 1e18f;
-constexpr float kDefaultRoughness = 0.8f;
 constexpr double kDefaultTicksPerSecond = 25;
 
 struct ReadError {
@@ -45,40 +37,6 @@ struct ReadError {
 std::string text(const aiString& s) { return {s.C_Str(), s.length}; }
 Vec3 vec(const aiVector3D& v) { return {v.x, v.y, v.z}; }
 
-// ---- before assimp ----------------------------------------------------------------------------------------------
-
-// Element counts in a PLY header and the triangle count of a binary STL against the file's size.
-void checkHeader(const std::string& extension, std::span<const std::byte> bytes) {
-    const std::string_view content(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    if (extension == ".ply") {
-        if (!content.starts_with("ply")) throw ReadError{"not a PLY file: expected \"ply\" at its start"};
-        const std::size_t end = content.find("end_header");
-        if (end == std::string_view::npos) throw ReadError{"PLY header without end_header"};
-        for (std::size_t at = content.find("\nelement "); at < end; at = content.find("\nelement ", at + 1)) {
-            const std::size_t number = content.find(' ', at + 9);
-            double count = -1;
-            if (number < end) {
-                std::size_t stop = number + 1;
-                while (stop < end && content[stop] >= '0' && content[stop] <= '9') ++stop;
-                std::uint64_t value = 0;
-                const auto parsed = std::from_chars(content.data() + number + 1, content.data() + stop, value);
-                if (parsed.ec == std::errc() && stop > number + 1) count = double(value);
-            }
-            if (count < 0 || count > double(bytes.size() - end))
-                throw ReadError{fmt::format("PLY element count {:.0f}, but only {} bytes follow the header", count,
-                                            bytes.size() - end)};
-        }
-    }
-    if (extension == ".stl" && !content.starts_with("solid")) {
-        std::uint32_t count = 0;
-        if (bytes.size() < 84) throw ReadError{fmt::format("truncated: {} bytes, too short for a binary STL", bytes.size())};
-        std::memcpy(&count, bytes.data() + 80, 4);
-        if (std::uint64_t(count) * 50 + 84 > bytes.size())
-            throw ReadError{fmt::format("truncated: {} triangles need {} bytes, the file has {}", count,
-                                        std::uint64_t(count) * 50 + 84, bytes.size())};
-    }
-}
-
 // ---- the scene assimp made --------------------------------------------------------------------------------------
 
 class SceneReader {
@@ -87,8 +45,7 @@ class SceneReader {
         : scene_(scene), path_(path), options_(options) {}
 
     Model read() {
-        for (unsigned i = 0; i < scene_.mNumMaterials; ++i) readMaterial(*scene_.mMaterials[i]);
-        decodeImages();
+        readAssimpMaterials(scene_, path_, options_.log, model_);
         readNodes();
         for (unsigned i = 0; i < scene_.mNumAnimations; ++i) readClip(*scene_.mAnimations[i]);
         return std::move(model_);
@@ -98,10 +55,6 @@ class SceneReader {
     void log(LogLevel level, const std::string& message) const {
         if (options_.log) options_.log(level, fmt::format("{}: {}", path_.string(), message));
     }
-    void readMaterial(const aiMaterial& source);
-    TextureUse texture(const aiMaterial& source, std::initializer_list<aiTextureType> types);
-    int image(const std::string& reference);
-    void decodeImages();
     void readNodes();
     void readNodeMeshes(const aiNode& source, int place);
     int readMeshes(const std::vector<unsigned>& meshes, const std::string& name, Skin* skin);
@@ -113,128 +66,11 @@ class SceneReader {
     const std::filesystem::path& path_;
     const ModelReadOptions& options_;
     Model model_;
-    std::map<std::string, int> imageOfReference_, nodeOfName_;
-    std::vector<std::string> imageReferences_;
+    std::map<std::string, int> nodeOfName_;
     std::map<std::vector<unsigned>, int> meshOfList_;
     std::vector<const aiNode*> sources_;   // by place in model_.nodes; null for nodes added here
     std::size_t bytes_ = 0;
 };
-
-int SceneReader::image(const std::string& reference) {
-    const auto [found, added] = imageOfReference_.emplace(reference, int(imageReferences_.size()));
-    if (added) imageReferences_.push_back(reference);
-    return found->second;
-}
-
-TextureUse SceneReader::texture(const aiMaterial& source, std::initializer_list<aiTextureType> types) {
-    TextureUse use;
-    for (const aiTextureType type : types) {
-        aiString reference;
-        unsigned uvSet = 0;
-        aiTextureMapMode modes[3] = {aiTextureMapMode_Wrap, aiTextureMapMode_Wrap, aiTextureMapMode_Wrap};
-        if (source.GetTexture(type, 0, &reference, nullptr, &uvSet, nullptr, nullptr, modes) != aiReturn_SUCCESS) continue;
-        if (reference.length == 0) continue;
-        const auto wrap = [](aiTextureMapMode mode) {
-            return mode == aiTextureMapMode_Mirror  ? Wrap::mirror
-                   : mode == aiTextureMapMode_Clamp ? Wrap::clamp
-                                                    : Wrap::repeat;
-        };
-        use.image = image(text(reference));
-        use.uvSet = uvSet == 1 ? 1 : 0;
-        use.wrapU = wrap(modes[0]);
-        use.wrapV = wrap(modes[1]);
-        return use;
-    }
-    return use;
-}
-
-// Roughness from a Phong exponent as Blender's exporters write it: (1 - roughness)^2 times 1000 (OBJ) or 100 (others).
-float roughnessOf(float shininess, bool obj) {
-    return 1 - std::sqrt(std::clamp(shininess / (obj ? 1000.0f : 100.0f), 0.0f, 1.0f));
-}
-
-void SceneReader::readMaterial(const aiMaterial& source) {
-    const bool obj = path_.extension() == ".obj" || path_.extension() == ".OBJ";
-    Material material;
-    aiString name;
-    if (source.Get(AI_MATKEY_NAME, name) == aiReturn_SUCCESS) material.name = text(name);
-    material.baseColorTexture = texture(source, {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE});
-    material.normalTexture = texture(source, {aiTextureType_NORMALS, aiTextureType_NORMAL_CAMERA});
-    material.emissionTexture = texture(source, {aiTextureType_EMISSION_COLOR, aiTextureType_EMISSIVE});
-    aiColor4D color(1, 1, 1, 1);
-    if (source.Get(AI_MATKEY_BASE_COLOR, color) != aiReturn_SUCCESS) source.Get(AI_MATKEY_COLOR_DIFFUSE, color);
-    // Exporters leave a black or grey colour under a texture, which then is meant to replace it.
-    if (material.baseColorTexture.image >= 0 && color.r + color.g + color.b == 0) color = aiColor4D(1, 1, 1, 1);
-    float opacity = 1;
-    source.Get(AI_MATKEY_OPACITY, opacity);
-    if (!(opacity > 0)) opacity = 1;   // FBX writers disagree on the sense of 0; nobody means an invisible surface
-    const auto unitRange = [](float v) { return std::isfinite(v) ? std::clamp(v, 0.0f, 1.0f) : 1.0f; };
-    material.baseColor = {unitRange(color.r), unitRange(color.g), unitRange(color.b), unitRange(opacity)};
-    if (material.baseColor.w < 1) material.alphaMode = AlphaMode::blend;
-
-    float value = 0;
-    material.metallic = source.Get(AI_MATKEY_METALLIC_FACTOR, value) == aiReturn_SUCCESS ? unitRange(value) : 0.0f;
-    if (source.Get(AI_MATKEY_ROUGHNESS_FACTOR, value) == aiReturn_SUCCESS) material.roughness = unitRange(value);
-    else if (source.Get(AI_MATKEY_SHININESS, value) == aiReturn_SUCCESS && value > 0)
-        material.roughness = roughnessOf(value, obj);
-    else material.roughness = kDefaultRoughness;
-    aiColor3D emission(0, 0, 0);
-    source.Get(AI_MATKEY_COLOR_EMISSIVE, emission);
-    material.emission = max(Vec3{emission.r, emission.g, emission.b}, {0, 0, 0});
-    // These formats mostly do not say; seeing a back face is better than missing a front one.
-    int twoSided = 1;
-    material.doubleSided = source.Get(AI_MATKEY_TWOSIDED, twoSided) != aiReturn_SUCCESS || twoSided != 0;
-    model_.materials.push_back(std::move(material));
-}
-
-// Where a texture may lie: as written, else by its name alone beside the model or in its "textures" folder.
-std::optional<std::filesystem::path> findBeside(const std::filesystem::path& model, std::string reference) {
-    std::replace(reference.begin(), reference.end(), '\\', '/');
-    const std::filesystem::path folder = model.parent_path(), file = std::filesystem::path(reference).filename();
-    for (const std::filesystem::path& candidate : {folder / reference, folder / file, folder / "textures" / file}) {
-        std::error_code error;
-        if (std::filesystem::is_regular_file(candidate, error)) return candidate;
-    }
-    return std::nullopt;
-}
-
-// Decodes all; a texture that cannot be found or is no PNG or JPEG is left out with a warning, as its path is often one
-// of the author's machine.
-void SceneReader::decodeImages() {
-    std::vector<std::optional<Result<ByteImage>>> decoded(imageReferences_.size());
-    parallelFor(decoded.size(), 1, [&](std::size_t i) {
-        const std::string& reference = imageReferences_[i];
-        if (const aiTexture* embedded = scene_.GetEmbeddedTexture(reference.c_str())) {
-            if (embedded->mHeight == 0) {
-                decoded[i] = decodeImage({reinterpret_cast<const std::byte*>(embedded->pcData), embedded->mWidth}, reference);
-            } else if (embedded->mWidth <= unsigned(kImageSideLimit) && embedded->mHeight <= unsigned(kImageSideLimit)) {
-                ByteImage pixels(int(embedded->mWidth), int(embedded->mHeight));
-                for (std::size_t p = 0; p < pixels.pixels.size() / 4; ++p) {
-                    const aiTexel t = embedded->pcData[p];
-                    const std::uint8_t rgba[4] = {t.r, t.g, t.b, t.a};
-                    std::copy_n(rgba, 4, pixels.pixels.data() + p * 4);
-                }
-                decoded[i] = std::move(pixels);
-            }
-        } else if (const auto file = findBeside(path_, reference)) {
-            decoded[i] = readByteImage(*file);
-        }
-    });
-    std::vector<int> place(decoded.size(), -1);
-    for (std::size_t i = 0; i < decoded.size(); ++i) {
-        if (!decoded[i]) {
-            log(LogLevel::warning, fmt::format("texture \"{}\" is not there and is left out", imageReferences_[i]));
-        } else if (!*decoded[i]) {
-            log(LogLevel::warning, fmt::format("texture left out: {}", decoded[i]->error().message));
-        } else {
-            place[i] = int(model_.images.size());
-            model_.images.push_back(**std::move(decoded[i]));
-        }
-    }
-    for (Material& m : model_.materials)
-        for (TextureUse* use : {&m.baseColorTexture, &m.normalTexture, &m.emissionTexture})
-            if (use->image >= 0) use->image = place[std::size_t(use->image)];
-}
 
 // ---- nodes, meshes, skins ---------------------------------------------------------------------------------------
 
@@ -354,6 +190,7 @@ Primitive SceneReader::readPrimitive(unsigned index, Skin* skin) {
         }
     }
     if (skin) readBones(source, *skin, out);
+    if (out.normals.empty()) makeCreaseNormals(out, std::cos(radians(kCreaseDegrees)));
     const Material* material = out.material < 0 ? nullptr : &model_.materials[std::size_t(out.material)];
     if (const std::string repaired = finishPrimitive(out, material); !repaired.empty())
         log(LogLevel::warning, fmt::format("mesh {} \"{}\": {}", index, text(source.mName), repaired));
@@ -478,13 +315,11 @@ Axes axesOf(const aiScene& scene, const std::string& extension, const ModelReadO
 
 Model readScene(const std::filesystem::path& path, const std::string& extension, const ModelReadOptions& options) {
     Assimp::Importer importer;
-    importer.SetPropertyFloat(AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, kCreaseDegrees);
     importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
     importer.SetPropertyInteger(AI_CONFIG_PP_LBW_MAX_WEIGHTS, 4);
     importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, options.up != UpAxis::automatic);
-    const unsigned steps = aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_GenSmoothNormals |
-                           aiProcess_JoinIdenticalVertices | aiProcess_LimitBoneWeights | aiProcess_FlipUVs |
-                           aiProcess_ValidateDataStructure;
+    const unsigned steps = aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_JoinIdenticalVertices |
+                           aiProcess_LimitBoneWeights | aiProcess_FlipUVs | aiProcess_ValidateDataStructure;
     const aiScene* scene = importer.ReadFile(path.string(), steps);
     if (!scene || !scene->mRootNode) throw ReadError{importer.GetErrorString()};
     if (scene->mNumMeshes == 0 && scene->mNumAnimations == 0) throw ReadError{"has no triangles"};
@@ -512,7 +347,7 @@ Result<Model> readAssimp(const std::filesystem::path& path, std::span<const std:
     std::string extension = path.extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return char(std::tolower(c)); });
     try {
-        checkHeader(extension, bytes);
+        if (const std::string fault = headerFault(extension, bytes); !fault.empty()) throw ReadError{fault};
         return readScene(path, extension, options);
     } catch (const ReadError& error) {
         return badInput(fmt::format("{}: {}", path.string(), oneLine(error.message)));

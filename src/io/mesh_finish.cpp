@@ -1,14 +1,20 @@
 // Tangents follow MikkTSpace (Mikkelsen 2008, "Simulation of Wrinkled Surfaces Revisited") in weighting each triangle's
-// tangent by the corner angle after projecting it into the vertex's plane, and in keeping the two handednesses apart.
-// Departure: vertices are grouped as the file indexes them, not welded again by position.
+// tangent by the corner angle after projecting it into the vertex's plane, and in summing the two handednesses apart.
+// Departures: vertices are grouped as the file indexes them, not welded again by position; one shared by triangles of
+// both handednesses is not doubled but takes the one with the larger angle, so a model keeps its file's vertex count.
 #include "io/mesh_finish.h"
 
 #include <array>
+#include <bit>
 #include <cmath>
+#include <unordered_map>
 
 namespace shoal::io {
 
 namespace {
+
+// Where more corners meet, all their faces are averaged: comparing each with each would take too long.
+constexpr std::size_t kCreaseCornerLimit = 256;
 
 template <class T>
 void gather(const std::vector<T>& from, std::span<const std::uint32_t> source, std::vector<T>& to) {
@@ -96,6 +102,99 @@ void makeFlatNormals(Primitive& p) {
     p = std::move(flat);
 }
 
+namespace {
+
+// Vertices at the same place have the same number; returns how many there are.
+std::size_t numberPositions(const std::vector<Vec3>& positions, std::vector<std::uint32_t>& number) {
+    struct Hash {
+        std::size_t operator()(const Vec3& v) const {
+            std::uint64_t h = 0;
+            for (const float f : {v.x, v.y, v.z})
+                h = (h ^ std::bit_cast<std::uint32_t>(f == 0 ? 0.0f : f)) * 0x9E3779B97F4A7C15u;
+            return std::size_t(h ^ h >> 32);
+        }
+    };
+    std::unordered_map<Vec3, std::uint32_t, Hash> seen;
+    seen.reserve(positions.size());
+    number.reserve(positions.size());
+    for (const Vec3 v : positions) number.push_back(seen.emplace(v, std::uint32_t(seen.size())).first->second);
+    return seen.size();
+}
+
+// Corners (indices into p.indices) by position: those of place i are corners[first[i]] to corners[first[i + 1] - 1].
+struct CornersByPlace {
+    std::vector<std::uint32_t> first, corners;
+};
+CornersByPlace cornersByPlace(const Primitive& p) {
+    std::vector<std::uint32_t> place;
+    CornersByPlace out;
+    out.first.assign(numberPositions(p.positions, place) + 1, 0);
+    for (const std::uint32_t v : p.indices) ++out.first[place[v] + 1];
+    for (std::size_t i = 1; i < out.first.size(); ++i) out.first[i] += out.first[i - 1];
+    std::vector<std::uint32_t> next(out.first.begin(), out.first.end() - 1);
+    out.corners.resize(p.indices.size());
+    for (std::uint32_t c = 0; c < p.indices.size(); ++c) out.corners[next[place[p.indices[c]]]++] = c;
+    return out;
+}
+
+// Weighted by the corner's angle, the faces within the crease angle of this corner's own.
+std::vector<Vec3> creaseNormalOfCorners(const Primitive& p, float creaseCosine) {
+    const std::size_t cornerCount = p.indices.size();
+    std::vector<Vec3> face(cornerCount / 3), normal(cornerCount);
+    std::vector<float> angle(cornerCount);
+    for (std::size_t i = 0; i < cornerCount; i += 3) {
+        const Vec3 v[3] = {p.positions[p.indices[i]], p.positions[p.indices[i + 1]], p.positions[p.indices[i + 2]]};
+        face[i / 3] = unit(faceNormal(v[0], v[1], v[2]));
+        for (std::size_t c = 0; c < 3; ++c) angle[i + c] = cornerAngle(v[c], v[(c + 1) % 3], v[(c + 2) % 3]);
+    }
+    const CornersByPlace places = cornersByPlace(p);
+    for (std::size_t i = 0; i + 1 < places.first.size(); ++i) {
+        const std::span<const std::uint32_t> around(places.corners.data() + places.first[i],
+                                                    places.first[i + 1] - places.first[i]);
+        const bool all = around.size() > kCreaseCornerLimit;
+        Vec3 sum;
+        for (std::size_t a = 0; a < around.size(); ++a) {
+            const Vec3 own = face[around[a] / 3];
+            if (!all || a == 0) {
+                sum = {};
+                for (const std::uint32_t b : around)
+                    if (all || dot(own, face[b / 3]) >= creaseCosine) sum += face[b / 3] * angle[b];
+            }
+            Vec3 n = unit(sum);
+            if (n == Vec3{}) n = own;
+            normal[around[a]] = n == Vec3{} ? Vec3{0, 1, 0} : n;
+        }
+    }
+    return normal;
+}
+
+}  // namespace
+
+void makeCreaseNormals(Primitive& p, float creaseCosine) {
+    const std::vector<Vec3> normalOfCorner = creaseNormalOfCorners(p, creaseCosine);
+    constexpr std::uint32_t kNone = ~std::uint32_t(0);
+    std::vector<std::uint32_t> head(p.vertexCount(), kNone), next, source, indices;   // new vertices of each old one
+    std::vector<Vec3> normals;
+    indices.reserve(p.indices.size());
+    for (std::size_t c = 0; c < p.indices.size(); ++c) {
+        const std::uint32_t old = p.indices[c];
+        std::uint32_t found = head[old];
+        while (found != kNone && !(normals[found] == normalOfCorner[c])) found = next[found];
+        if (found == kNone) {
+            found = std::uint32_t(source.size());
+            source.push_back(old);
+            normals.push_back(normalOfCorner[c]);
+            next.push_back(head[old]);
+            head[old] = found;
+        }
+        indices.push_back(found);
+    }
+    p.normals.clear();
+    p = gatherVertices(p, source);
+    p.normals = std::move(normals);
+    p.indices = std::move(indices);
+}
+
 std::size_t repairNormals(Primitive& p) {
     std::vector<std::uint32_t> broken;
     for (std::size_t i = 0; i < p.normals.size(); ++i) {
@@ -129,44 +228,30 @@ void repairTangents(Primitive& p) {
 
 void makeTangents(Primitive& p, bool fromUv1) {
     const std::vector<Vec2>& uv = fromUv1 ? p.uv1 : p.uv0;
-    p.tangents.clear();
-    std::vector<std::array<Vec3, 2>> sums(p.vertexCount());  // of handedness +1, -1
-    std::vector<std::int8_t> handOfCorner(p.indices.size(), 0);
-    std::vector<std::uint8_t> handsOfVertex(p.vertexCount(), 0);  // bit 0: +1, bit 1: -1
+    struct Sum {
+        Vec3 tangent;
+        float angle = 0;
+    };
+    std::vector<std::array<Sum, 2>> sums(p.vertexCount());   // of handedness +1, -1
     for (std::size_t i = 0; !uv.empty() && i + 2 < p.indices.size(); i += 3) {
         const std::uint32_t v[3] = {p.indices[i], p.indices[i + 1], p.indices[i + 2]};
-        const TextureAxes axes =
-            textureAxes({p.positions[v[0]], p.positions[v[1]], p.positions[v[2]]}, {uv[v[0]], uv[v[1]], uv[v[2]]});
+        const TextureAxes axes = textureAxes({p.positions[v[0]], p.positions[v[1]], p.positions[v[2]]},
+                                             {uv[v[0]], uv[v[1]], uv[v[2]]});
         if (!axes.valid) continue;
         for (int c = 0; c < 3; ++c) {
             const Vec3 at = p.positions[v[c]], n = p.normals[v[c]];
             const Vec3 t = unit(axes.u - n * dot(n, axes.u));
             // The bitangent of a normal map points up the picture; glTF's v counts down.
             const bool negative = dot(cross(n, t), axes.v) > 0;
-            handOfCorner[i + std::size_t(c)] = negative ? -1 : 1;
-            handsOfVertex[v[c]] |= negative ? 2 : 1;
-            sums[v[c]][negative] += t * cornerAngle(at, p.positions[v[(c + 1) % 3]], p.positions[v[(c + 2) % 3]]);
+            const float angle = cornerAngle(at, p.positions[v[(c + 1) % 3]], p.positions[v[(c + 2) % 3]]);
+            sums[v[c]][negative].tangent += t * angle;
+            sums[v[c]][negative].angle += angle;
         }
     }
-    std::vector<std::uint32_t> source(p.vertexCount()), twin(p.vertexCount(), 0);
-    for (std::uint32_t i = 0; i < p.vertexCount(); ++i) source[i] = i;
-    for (std::uint32_t i = 0; i < p.vertexCount(); ++i)
-        if (handsOfVertex[i] == 3) {
-            twin[i] = std::uint32_t(source.size());
-            source.push_back(i);
-        }
-    const std::size_t before = p.vertexCount();
-    if (source.size() > before) {
-        std::vector<std::uint32_t> indices = std::move(p.indices);
-        for (std::size_t i = 0; i < indices.size(); ++i)
-            if (handOfCorner[i] < 0 && twin[indices[i]]) indices[i] = twin[indices[i]];
-        p = gatherVertices(p, source);
-        p.indices = std::move(indices);
-    }
-    p.tangents.resize(source.size());
-    for (std::size_t i = 0; i < source.size(); ++i) {
-        const bool negative = i >= before || handsOfVertex[i] == 2;
-        const Vec3 sum = sums[source[i]][negative];
+    p.tangents.resize(p.vertexCount());
+    for (std::size_t i = 0; i < p.vertexCount(); ++i) {
+        const bool negative = sums[i][1].angle > sums[i][0].angle;
+        const Vec3 sum = sums[i][negative].tangent;
         p.tangents[i] = {sum.x, sum.y, sum.z, negative ? -1.0f : 1.0f};
     }
     repairTangents(p);

@@ -15,6 +15,10 @@ Primitive gatherVertices(const Primitive& primitive, std::span<const std::uint32
 // Gives every triangle its own vertices and its plane's normal.
 void makeFlatNormals(Primitive& primitive);
 
+// Smooth normals that keep the edges where faces meet at an angle whose cosine is below `creaseCosine`. Vertices at one
+// position count as one; a vertex at such an edge is doubled.
+void makeCreaseNormals(Primitive& primitive, float creaseCosine);
+
 // Scales normals to unit length; where one is zero or not finite it becomes the area-weighted mean of the faces around.
 // Returns how many those were.
 std::size_t repairNormals(Primitive& primitive);
@@ -22,7 +26,7 @@ std::size_t repairNormals(Primitive& primitive);
 // Scales tangents to unit length, at right angles to the normals, w to +-1; unusable ones become any such vector.
 void repairTangents(Primitive& primitive);
 
-// Tangents from uv0 (or uv1). A vertex shared by triangles of either handedness is doubled.
+// Tangents from uv0 (or uv1), one a vertex.
 void makeTangents(Primitive& primitive, bool fromUv1);
 
 // Scales weights to sum 1 and clears the joints of zero weights; where all are zero the first joint gets all. Returns

@@ -1,0 +1,45 @@
+// Element counts in a PLY header and the triangle count of a binary STL against the file's size.
+#include <charconv>
+#include <cstdint>
+#include <cstring>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "io/assimp_parts.h"
+
+namespace shoal::io {
+
+std::string headerFault(const std::string& extension, std::span<const std::byte> bytes) {
+    const std::string_view content(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    if (extension == ".ply") {
+        if (!content.starts_with("ply")) return "not a PLY file: expected \"ply\" at its start";
+        const std::size_t end = content.find("end_header");
+        if (end == std::string_view::npos) return "PLY header without end_header";
+        for (std::size_t at = content.find("\nelement "); at < end; at = content.find("\nelement ", at + 1)) {
+            const std::size_t number = content.find(' ', at + 9);
+            double count = -1;
+            if (number < end) {
+                std::size_t stop = number + 1;
+                while (stop < end && content[stop] >= '0' && content[stop] <= '9') ++stop;
+                std::uint64_t value = 0;
+                const auto parsed = std::from_chars(content.data() + number + 1, content.data() + stop, value);
+                if (parsed.ec == std::errc() && stop > number + 1) count = double(value);
+            }
+            if (count < 0 || count > double(bytes.size() - end))
+                return fmt::format("PLY element count {:.0f}, but only {} bytes follow the header", count,
+                                            bytes.size() - end);
+        }
+    }
+    if (extension == ".stl" && !content.starts_with("solid")) {
+        std::uint32_t count = 0;
+        if (bytes.size() < 84) return fmt::format("truncated: {} bytes, too short for a binary STL", bytes.size());
+        std::memcpy(&count, bytes.data() + 80, 4);
+        if (std::uint64_t(count) * 50 + 84 > bytes.size())
+            return fmt::format("truncated: {} triangles need {} bytes, the file has {}", count,
+                                        std::uint64_t(count) * 50 + 84, bytes.size());
+    }
+    return {};
+}
+
+}  // namespace shoal::io
