@@ -17,7 +17,7 @@
 namespace shoal::gl {
 namespace {
 
-thread_local Context* currentContext = nullptr;   // what switchTo() made current last on this thread
+thread_local Context* currentContext = nullptr;  // what switchTo() made current last on this thread
 
 std::string lower(std::string_view text) {
     std::string out(text);
@@ -57,16 +57,16 @@ void APIENTRY onDebugMessage(GLenum, GLenum type, GLuint, GLenum severity, GLsiz
     auto& state = *const_cast<Device::State*>(static_cast<const Device::State*>(user));
     const bool isError = type == GL_DEBUG_TYPE_ERROR || severity == GL_DEBUG_SEVERITY_HIGH;
     if (isError) ++state.debugErrorCount;
-    const LogLevel level = isError                                    ? LogLevel::error
+    const LogLevel level = isError                                ? LogLevel::error
                            : severity == GL_DEBUG_SEVERITY_MEDIUM ? LogLevel::warning
-                                                                      : LogLevel::debug;
+                                                                  : LogLevel::debug;
     std::string_view message(text, length >= 0 ? std::size_t(length) : std::string_view(text).size());
     while (!message.empty() && std::isspace(static_cast<unsigned char>(message.back()))) message.remove_suffix(1);
     state.say(level, fmt::format("OpenGL: {}", message));
 }
 
 void listenToMessages(Device::State& state) {
-    if (!state.context) {   // a host's own callback is put back when the device goes
+    if (!state.context) {  // a host's own callback is put back when the device goes
         void* function = nullptr;
         void* user = nullptr;
         glGetPointerv(GL_DEBUG_CALLBACK_FUNCTION, &function);
@@ -92,7 +92,8 @@ Result<std::string> chooseShaderDir(const DeviceOptions& options) {
     }
     std::error_code error;
     if (!dir.empty() && !std::filesystem::is_directory(dir, error))
-        return badInput(fmt::format("{}: \"{}\" is not a folder; expected one that is laid out as shoal's src/", origin, dir));
+        return badInput(
+            fmt::format("{}: \"{}\" is not a folder; expected one that is laid out as shoal's src/", origin, dir));
     return dir;
 }
 
@@ -138,10 +139,14 @@ std::vector<EglCandidate> worthTrying(const std::vector<EglCandidate>& all, cons
 // Why an opened device is not what was asked for; empty if it is.
 std::string mismatch(const DeviceInfo& info, const std::string& device) {
     switch (wanted(device)) {
-        case Want::any: return {};
-        case Want::gpu: return info.software ? info.renderer + " is software" : "";
-        case Want::cpu: return info.software ? "" : info.renderer + " is not software";
-        case Want::byName: break;
+        case Want::any:
+            return {};
+        case Want::gpu:
+            return info.software ? info.renderer + " is software" : "";
+        case Want::cpu:
+            return info.software ? "" : info.renderer + " is not software";
+        case Want::byName:
+            break;
     }
     if (info.name == lower(device) || lower(info.renderer).find(lower(device)) != std::string::npos) return {};
     return "is " + info.renderer;
@@ -197,8 +202,8 @@ Result<std::unique_ptr<Device::State>> adoptCurrentContext(const DeviceOptions& 
                                                            std::unique_ptr<Context> context) {
     const int version = epoxy_gl_version();
     if (!epoxy_is_desktop_gl() || version < 45)
-        return noDevice(fmt::format("found {} {}.{}, expected OpenGL 4.5 core", epoxy_is_desktop_gl() ? "OpenGL" : "OpenGL ES",
-                                    version / 10, version % 10));
+        return noDevice(fmt::format("found {} {}.{}, expected OpenGL 4.5 core",
+                                    epoxy_is_desktop_gl() ? "OpenGL" : "OpenGL ES", version / 10, version % 10));
     auto state = std::make_unique<Device::State>();
     state->context = std::move(context);
     SHOAL_TRY_ASSIGN(state->shaderDir, chooseShaderDir(options));
@@ -234,16 +239,17 @@ Device::~Device() {
     }
     state_->ledger->device = nullptr;
     if (state_->ledger->objectCount > 0)
-        state_->say(LogLevel::warning, fmt::format("{} OpenGL objects ({} bytes) outlive their device \"{}\"",
-                                                   state_->ledger->objectCount, state_->ledger->bytes, state_->info.name));
+        state_->say(LogLevel::warning,
+                    fmt::format("{} OpenGL objects ({} bytes) outlive their device \"{}\"", state_->ledger->objectCount,
+                                state_->ledger->bytes, state_->info.name));
 }
 
 Result<std::unique_ptr<Device>> Device::create(const DeviceOptions& options) {
-    SHOAL_TRY(chooseShaderDir(options));   // a wrong folder is not a missing device
+    SHOAL_TRY(chooseShaderDir(options));  // a wrong folder is not a missing device
     auto all = eglCandidates();
     if (!all) return noDevice(fmt::format("no OpenGL 4.5 device: {}", all.error().message));
     std::string tried;
-    std::unique_ptr<State> reserve;   // "auto": software that was found where hardware was expected
+    std::unique_ptr<State> reserve;  // "auto": software that was found where hardware was expected
     for (const EglCandidate& candidate : worthTrying(*all, options.device)) {
         if (reserve && !candidate.saysSoftware && !candidate.device) continue;
         Attempt attempt = open(candidate, options);
@@ -268,7 +274,8 @@ Result<std::unique_ptr<Device>> Device::create(const DeviceOptions& options) {
 
 Result<std::unique_ptr<Device>> Device::fromCurrentContext(const DeviceOptions& options) {
     if (std::string problem = missingGlLibrary(false); !problem.empty()) return noDevice(problem);
-    if (!glGetString(GL_VERSION)) return noDevice("no OpenGL context is current on this thread; make the host's current first");
+    if (!glGetString(GL_VERSION))
+        return noDevice("no OpenGL context is current on this thread; make the host's current first");
     SHOAL_TRY_ASSIGN(auto state, adoptCurrentContext(options, "host", nullptr));
     return adopt(std::move(state));
 }
@@ -299,11 +306,17 @@ std::vector<DeviceInfo> listDevices() {
     const EglCurrent before = eglCurrent();
     Context* const ours = currentContext;
     for (const EglCandidate& candidate : *all) {
-        if (!candidate.device && !out.empty()) continue;   // surfaceless gives one of those already listed
+        if (!candidate.device && !out.empty()) continue;  // surfaceless gives one of those already listed
         Attempt attempt = open(candidate, {});
-        if (attempt.state) out.push_back(attempt.state->info);
-        else out.push_back({.name = candidate.name, .renderer = candidate.description, .vendor = "", .version = "",
-                            .software = candidate.saysSoftware, .problem = attempt.problem});
+        if (attempt.state)
+            out.push_back(attempt.state->info);
+        else
+            out.push_back({.name = candidate.name,
+                           .renderer = candidate.description,
+                           .vendor = "",
+                           .version = "",
+                           .software = candidate.saysSoftware,
+                           .problem = attempt.problem});
     }
     restoreEglCurrent(before);
     if (ours) (void)switchTo(*ours);

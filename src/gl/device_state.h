@@ -21,7 +21,8 @@ public:
     virtual bool isCurrent() const = 0;
 };
 
-// Shared by a device and its objects. `device` is null once the device is gone: its context, and with it every name, went too.
+// Shared by a device and its objects. `device` is null once the device is gone: its context, and with it every name,
+// went too.
 struct ObjectLedger {
     Device* device = nullptr;
     std::int64_t objectCount = 0;
@@ -32,14 +33,14 @@ struct Device::State {
     DeviceInfo info;
     Capabilities capabilities;
     LogSink log;
-    std::unique_ptr<Context> context;   // null: the host's, which the host keeps current
+    std::unique_ptr<Context> context;  // null: the host's, which the host keeps current
     std::shared_ptr<ObjectLedger> ledger = std::make_shared<ObjectLedger>();
     std::unique_ptr<ProgramCache> programs;
     std::string shaderDir;
     int debugErrorCount = 0;
     bool debugContext = false;
     bool callbackSet = false;
-    GLDEBUGPROC hostCallback = nullptr;   // put back when a host's device goes
+    GLDEBUGPROC hostCallback = nullptr;  // put back when a host's device goes
     const void* hostCallbackUser = nullptr;
 
     bool isCurrent() const { return !context || context->isCurrent(); }
@@ -48,8 +49,8 @@ struct Device::State {
     }
 };
 
-// Makes `context` current on this thread; whatever context of Shoal's was current is released first, because glvnd refuses to
-// change between GLX and EGL otherwise.
+// Makes `context` current on this thread; whatever context of Shoal's was current is released first, because glvnd
+// refuses to change between GLX and EGL otherwise.
 Result<void> switchTo(Context& context);
 // Forgets `context` if it was the one Shoal made current last on this thread.
 void forgetCurrent(Context& context);

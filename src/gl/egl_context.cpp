@@ -13,7 +13,7 @@ namespace shoal::gl {
 namespace {
 
 constexpr int kMaxDevices = 64;
-constexpr EGLint kEglRendererExt = 0x335F;   // EGL_EXT_device_query_name; not in epoxy's header yet
+constexpr EGLint kEglRendererExt = 0x335F;  // EGL_EXT_device_query_name; not in epoxy's header yet
 
 // Whole-word search in a list separated by spaces.
 bool hasWord(const char* list, std::string_view word) {
@@ -29,22 +29,33 @@ bool hasWord(const char* list, std::string_view word) {
 std::string eglErrorName() {
     const EGLint code = eglGetError();
     switch (code) {
-        case EGL_SUCCESS: return "no EGL error";
-        case EGL_NOT_INITIALIZED: return "EGL_NOT_INITIALIZED";
-        case EGL_BAD_ACCESS: return "EGL_BAD_ACCESS";
-        case EGL_BAD_ALLOC: return "EGL_BAD_ALLOC";
-        case EGL_BAD_ATTRIBUTE: return "EGL_BAD_ATTRIBUTE";
-        case EGL_BAD_CONFIG: return "EGL_BAD_CONFIG";
-        case EGL_BAD_CONTEXT: return "EGL_BAD_CONTEXT";
-        case EGL_BAD_DISPLAY: return "EGL_BAD_DISPLAY";
-        case EGL_BAD_MATCH: return "EGL_BAD_MATCH";
-        case EGL_BAD_PARAMETER: return "EGL_BAD_PARAMETER";
-        default: return fmt::format("EGL error 0x{:04x}", code);
+        case EGL_SUCCESS:
+            return "no EGL error";
+        case EGL_NOT_INITIALIZED:
+            return "EGL_NOT_INITIALIZED";
+        case EGL_BAD_ACCESS:
+            return "EGL_BAD_ACCESS";
+        case EGL_BAD_ALLOC:
+            return "EGL_BAD_ALLOC";
+        case EGL_BAD_ATTRIBUTE:
+            return "EGL_BAD_ATTRIBUTE";
+        case EGL_BAD_CONFIG:
+            return "EGL_BAD_CONFIG";
+        case EGL_BAD_CONTEXT:
+            return "EGL_BAD_CONTEXT";
+        case EGL_BAD_DISPLAY:
+            return "EGL_BAD_DISPLAY";
+        case EGL_BAD_MATCH:
+            return "EGL_BAD_MATCH";
+        case EGL_BAD_PARAMETER:
+            return "EGL_BAD_PARAMETER";
+        default:
+            return fmt::format("EGL error 0x{:04x}", code);
     }
 }
 
-// The display is never terminated: EGL hands the same one to everybody who asks for this device, a host or a second Device
-// too, and eglTerminate would take their contexts away.
+// The display is never terminated: EGL hands the same one to everybody who asks for this device, a host or a second
+// Device too, and eglTerminate would take their contexts away.
 class EglContext final : public Context {
 public:
     EglContext(EGLDisplay display, EGLContext context, EGLSurface surface)
@@ -107,7 +118,8 @@ Result<Needs> configAndSurface(EGLDisplay display, const char* extensions) {
 
 std::string missingGlLibrary(bool needEgl) {
     // The handles stay open: epoxy opens the same libraries a moment later.
-    if (needEgl && !dlopen("libEGL.so.1", RTLD_LAZY | RTLD_LOCAL)) return "libEGL.so.1 cannot be opened (Debian: libegl1)";
+    if (needEgl && !dlopen("libEGL.so.1", RTLD_LAZY | RTLD_LOCAL))
+        return "libEGL.so.1 cannot be opened (Debian: libegl1)";
     if (!dlopen("libOpenGL.so.0", RTLD_LAZY | RTLD_LOCAL) && !dlopen("libGL.so.1", RTLD_LAZY | RTLD_LOCAL))
         return "neither libOpenGL.so.0 nor libGL.so.1 can be opened (Debian: libopengl0)";
     return {};
@@ -117,7 +129,8 @@ Result<std::vector<EglCandidate>> eglCandidates() {
     if (std::string problem = missingGlLibrary(true); !problem.empty()) return noDevice(problem);
     const char* extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
     std::vector<EglCandidate> found;
-    const bool canList = hasWord(extensions, "EGL_EXT_device_enumeration") || hasWord(extensions, "EGL_EXT_device_base");
+    const bool canList =
+        hasWord(extensions, "EGL_EXT_device_enumeration") || hasWord(extensions, "EGL_EXT_device_base");
     if (canList && hasWord(extensions, "EGL_EXT_platform_device")) {
         EGLDeviceEXT devices[kMaxDevices];
         EGLint count = 0;
@@ -130,8 +143,10 @@ Result<std::vector<EglCandidate>> eglCandidates() {
     std::stable_partition(found.begin(), found.end(), [](const EglCandidate& c) { return !c.saysSoftware; });
     int gpuCount = 0, cpuCount = 0;
     for (EglCandidate& c : found) {
-        if (!c.saysSoftware) c.name = fmt::format("gpu{}", gpuCount++);
-        else c.name = cpuCount++ == 0 ? "cpu" : fmt::format("cpu{}", cpuCount - 1);
+        if (!c.saysSoftware)
+            c.name = fmt::format("gpu{}", gpuCount++);
+        else
+            c.name = cpuCount++ == 0 ? "cpu" : fmt::format("cpu{}", cpuCount - 1);
     }
     if (hasWord(extensions, "EGL_MESA_platform_surfaceless")) found.push_back({"surfaceless", "", nullptr, false});
     if (found.empty()) return noDevice("EGL lists no devices and has no surfaceless platform (Debian: libegl-mesa0)");
@@ -140,7 +155,8 @@ Result<std::vector<EglCandidate>> eglCandidates() {
 
 Result<std::unique_ptr<Context>> openEglContext(const EglCandidate& candidate, bool debug) {
     const EGLenum platform = candidate.device ? EGL_PLATFORM_DEVICE_EXT : EGL_PLATFORM_SURFACELESS_MESA;
-    // Not eglGetPlatformDisplay: epoxy looks up which EGL version a display has before it knows that entry point, and aborts.
+    // Not eglGetPlatformDisplay: epoxy looks up which EGL version a display has before it knows that entry point, and
+    // aborts.
     const EGLDisplay display = eglGetPlatformDisplayEXT(
         platform, candidate.device ? candidate.device : reinterpret_cast<void*>(EGL_DEFAULT_DISPLAY), nullptr);
     if (display == EGL_NO_DISPLAY) return noDevice("eglGetPlatformDisplayEXT failed: " + eglErrorName());
@@ -153,9 +169,15 @@ Result<std::unique_ptr<Context>> openEglContext(const EglCandidate& candidate, b
     SHOAL_TRY_ASSIGN(const Needs needs, configAndSurface(display, extensions));
 
     // The KHR names have the values of EGL 1.5; the debug bit exists in both.
-    EGLint wanted[] = {EGL_CONTEXT_MAJOR_VERSION_KHR, 4, EGL_CONTEXT_MINOR_VERSION_KHR, 5,
-                       EGL_CONTEXT_OPENGL_PROFILE_MASK_KHR, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT_KHR,
-                       EGL_CONTEXT_FLAGS_KHR, EGL_CONTEXT_OPENGL_DEBUG_BIT_KHR, EGL_NONE};
+    EGLint wanted[] = {EGL_CONTEXT_MAJOR_VERSION_KHR,
+                       4,
+                       EGL_CONTEXT_MINOR_VERSION_KHR,
+                       5,
+                       EGL_CONTEXT_OPENGL_PROFILE_MASK_KHR,
+                       EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT_KHR,
+                       EGL_CONTEXT_FLAGS_KHR,
+                       EGL_CONTEXT_OPENGL_DEBUG_BIT_KHR,
+                       EGL_NONE};
     if (!debug) wanted[6] = EGL_NONE;
     const EGLContext context = eglCreateContext(display, needs.config, EGL_NO_CONTEXT, wanted);
     if (context == EGL_NO_CONTEXT) {
@@ -167,7 +189,8 @@ Result<std::unique_ptr<Context>> openEglContext(const EglCandidate& candidate, b
 }
 
 EglCurrent eglCurrent() {
-    return {eglGetCurrentDisplay(), eglGetCurrentContext(), eglGetCurrentSurface(EGL_DRAW), eglGetCurrentSurface(EGL_READ)};
+    return {eglGetCurrentDisplay(), eglGetCurrentContext(), eglGetCurrentSurface(EGL_DRAW),
+            eglGetCurrentSurface(EGL_READ)};
 }
 
 void restoreEglCurrent(const EglCurrent& current) {

@@ -13,10 +13,10 @@ namespace shoal::gl {
 
 // One thing EGL may give a context for. Listing them opens nothing.
 struct EglCandidate {
-    std::string name;             // "gpu0", "cpu", "surfaceless"
-    std::string description;      // a device file or EGL's name of the device; may be empty
-    void* device = nullptr;       // EGLDeviceEXT; null for the surfaceless platform
-    bool saysSoftware = false;    // by EGL_MESA_device_software; the renderer's name decides in the end
+    std::string name;           // "gpu0", "cpu", "surfaceless"
+    std::string description;    // a device file or EGL's name of the device; may be empty
+    void* device = nullptr;     // EGLDeviceEXT; null for the surfaceless platform
+    bool saysSoftware = false;  // by EGL_MESA_device_software; the renderer's name decides in the end
 };
 
 // Hardware first, then software, then the surfaceless platform. The error says why EGL offers nothing.

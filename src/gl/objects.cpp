@@ -16,8 +16,9 @@ void setLabel(GLenum kind, GLuint name, std::string_view label) {
 }
 
 void requireCurrent(Device& device) {
-    SHOAL_ASSERT_MSG(device.state().isCurrent(),
-                     fmt::format("device \"{}\" is not current on this thread: call makeCurrent()", device.info().name));
+    SHOAL_ASSERT_MSG(
+        device.state().isCurrent(),
+        fmt::format("device \"{}\" is not current on this thread: call makeCurrent()", device.info().name));
 }
 
 }  // namespace
@@ -32,10 +33,12 @@ Object::~Object() {
     if (!name_) return;
     --ledger_->objectCount;
     ledger_->bytes -= bytes_;
-    if (!ledger_->device) return;   // the device said so when it went
+    if (!ledger_->device) return;  // the device said so when it went
     const ScopedCurrent current(ledger_->device->state());
-    if (current.ok()) deleteName(type_, name_);
-    else ledger_->device->log(LogLevel::warning, "cannot delete an OpenGL object: its context cannot be made current");
+    if (current.ok())
+        deleteName(type_, name_);
+    else
+        ledger_->device->log(LogLevel::warning, "cannot delete an OpenGL object: its context cannot be made current");
 }
 
 void Object::countBytes(std::int64_t bytes) {
@@ -45,14 +48,29 @@ void Object::countBytes(std::int64_t bytes) {
 
 void Object::deleteName(Type type, std::uint32_t name) {
     switch (type) {
-        case Type::buffer: glDeleteBuffers(1, &name); break;
-        case Type::texture: glDeleteTextures(1, &name); break;
-        case Type::sampler: glDeleteSamplers(1, &name); break;
-        case Type::framebuffer: glDeleteFramebuffers(1, &name); break;
-        case Type::vertexArray: glDeleteVertexArrays(1, &name); break;
-        case Type::query: glDeleteQueries(1, &name); break;
-        case Type::program: glDeleteProgram(name); break;
-        case Type::none: break;
+        case Type::buffer:
+            glDeleteBuffers(1, &name);
+            break;
+        case Type::texture:
+            glDeleteTextures(1, &name);
+            break;
+        case Type::sampler:
+            glDeleteSamplers(1, &name);
+            break;
+        case Type::framebuffer:
+            glDeleteFramebuffers(1, &name);
+            break;
+        case Type::vertexArray:
+            glDeleteVertexArrays(1, &name);
+            break;
+        case Type::query:
+            glDeleteQueries(1, &name);
+            break;
+        case Type::program:
+            glDeleteProgram(name);
+            break;
+        case Type::none:
+            break;
     }
 }
 
@@ -130,7 +148,7 @@ Sampler Sampler::create(Device& device, Enum minFilter, Enum magFilter, Enum wra
         glSamplerParameterf(name, GL_TEXTURE_MAX_ANISOTROPY_EXT, std::min(anisotropy, can.maxAnisotropy));
     if (depthCompare) {
         glSamplerParameteri(name, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
-        glSamplerParameteri(name, GL_TEXTURE_COMPARE_FUNC, GL_GEQUAL);   // reversed z: the larger depth is nearer
+        glSamplerParameteri(name, GL_TEXTURE_COMPARE_FUNC, GL_GEQUAL);  // reversed z: the larger depth is nearer
     }
     return Sampler(device, Type::sampler, name, 0);
 }
@@ -144,18 +162,26 @@ namespace {
 bool hasStencil(GLenum format) { return format == GL_DEPTH24_STENCIL8 || format == GL_DEPTH32F_STENCIL8; }
 
 void attach(GLuint framebuffer, GLenum point, const Framebuffer::Attachment& a) {
-    if (a.layer < 0) glNamedFramebufferTexture(framebuffer, point, a.texture.name, a.level);
-    else glNamedFramebufferTextureLayer(framebuffer, point, a.texture.name, a.level, a.layer);
+    if (a.layer < 0)
+        glNamedFramebufferTexture(framebuffer, point, a.texture.name, a.level);
+    else
+        glNamedFramebufferTextureLayer(framebuffer, point, a.texture.name, a.level, a.layer);
 }
 
 const char* statusName(GLenum status) {
     switch (status) {
-        case GL_FRAMEBUFFER_INCOMPLETE_ATTACHMENT: return "an attachment is incomplete";
-        case GL_FRAMEBUFFER_INCOMPLETE_MISSING_ATTACHMENT: return "it has no attachment";
-        case GL_FRAMEBUFFER_INCOMPLETE_MULTISAMPLE: return "sample counts differ";
-        case GL_FRAMEBUFFER_INCOMPLETE_LAYER_TARGETS: return "layered and plain attachments are mixed";
-        case GL_FRAMEBUFFER_UNSUPPORTED: return "the driver does not support this combination of formats";
-        default: return "unknown reason";
+        case GL_FRAMEBUFFER_INCOMPLETE_ATTACHMENT:
+            return "an attachment is incomplete";
+        case GL_FRAMEBUFFER_INCOMPLETE_MISSING_ATTACHMENT:
+            return "it has no attachment";
+        case GL_FRAMEBUFFER_INCOMPLETE_MULTISAMPLE:
+            return "sample counts differ";
+        case GL_FRAMEBUFFER_INCOMPLETE_LAYER_TARGETS:
+            return "layered and plain attachments are mixed";
+        case GL_FRAMEBUFFER_UNSUPPORTED:
+            return "the driver does not support this combination of formats";
+        default:
+            return "unknown reason";
     }
 }
 
@@ -182,7 +208,8 @@ Result<Framebuffer> Framebuffer::create(Device& device, std::span<const Attachme
     setLabel(GL_FRAMEBUFFER, name, label);
     const GLenum status = glCheckNamedFramebufferStatus(name, GL_FRAMEBUFFER);
     if (status != GL_FRAMEBUFFER_COMPLETE)
-        return internalError(fmt::format("framebuffer \"{}\" cannot be drawn to: {} (0x{:04x})", label, statusName(status), status));
+        return internalError(
+            fmt::format("framebuffer \"{}\" cannot be drawn to: {} (0x{:04x})", label, statusName(status), status));
     out.width_ = std::max(first->texture.width >> first->level, 1);
     out.height_ = std::max(first->texture.height >> first->level, 1);
     return out;
@@ -203,7 +230,8 @@ VertexArray VertexArray::create(Device& device, std::span<const VertexAttribute>
     for (const VertexAttribute& a : attributes) {
         const auto location = GLuint(a.location);
         glEnableVertexArrayAttrib(name, location);
-        if (a.integer) glVertexArrayAttribIFormat(name, location, a.componentCount, a.type, GLuint(a.offset));
+        if (a.integer)
+            glVertexArrayAttribIFormat(name, location, a.componentCount, a.type, GLuint(a.offset));
         else
             glVertexArrayAttribFormat(name, location, a.componentCount, a.type, a.normalized ? GL_TRUE : GL_FALSE,
                                       GLuint(a.offset));

@@ -136,7 +136,9 @@ void Program::set(int location, std::uint32_t value) const { glProgramUniform1ui
 void Program::set(int location, float value) const { glProgramUniform1f(name_, location, value); }
 void Program::set(int location, Vec2 value) const { glProgramUniform2f(name_, location, value.x, value.y); }
 void Program::set(int location, Vec3 value) const { glProgramUniform3f(name_, location, value.x, value.y, value.z); }
-void Program::set(int location, Vec4 value) const { glProgramUniform4f(name_, location, value.x, value.y, value.z, value.w); }
+void Program::set(int location, Vec4 value) const {
+    glProgramUniform4f(name_, location, value.x, value.y, value.z, value.w);
+}
 void Program::set(int location, const Mat4& value) const {
     glProgramUniformMatrix4fv(name_, location, 1, GL_FALSE, value.m.data());
 }
@@ -144,8 +146,8 @@ void Program::set(int location, const Mat4& value) const {
 struct ProgramCache::State {
     struct Entry {
         Program program;
-        std::uint64_t triedHash = 0;   // of the sources last built, well or badly
-        std::string sourceError;       // of the last reading that failed, so that it is logged once
+        std::uint64_t triedHash = 0;  // of the sources last built, well or badly
+        std::string sourceError;      // of the last reading that failed, so that it is logged once
     };
     Device& device;
     std::shared_ptr<ObjectLedger> ledger;
@@ -180,7 +182,8 @@ Result<const Program*> ProgramCache::get(const ProgramDesc& desc) {
     const std::string key = keyOf(desc);
     if (const auto found = state_->entries.find(key); found != state_->entries.end()) return &found->second->program;
     SHOAL_ASSERT_MSG(!desc.stages.empty(), "a program needs at least one stage");
-    SHOAL_ASSERT_MSG(state_->device.state().isCurrent(), "the device is not current on this thread: call makeCurrent()");
+    SHOAL_ASSERT_MSG(state_->device.state().isCurrent(),
+                     "the device is not current on this thread: call makeCurrent()");
     SHOAL_TRY_ASSIGN(const Sources sources, readSources(desc, state_->shaderDir));
     SHOAL_TRY_ASSIGN(const GLuint name, build(sources, desc));
     auto entry = std::make_unique<State::Entry>();

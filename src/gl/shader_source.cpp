@@ -20,8 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Mesa forgets the file's number of whatever is more than one token (its YYLLOC_DEFAULT sets it to 0), so #line directives
-// carry the file in the line number as well: file * kLinesPerFile + line.
+// Mesa forgets the file's number of whatever is more than one token (its YYLLOC_DEFAULT sets it to 0), so #line
+// directives carry the file in the line number as well: file * kLinesPerFile + line.
 constexpr std::size_t kLinesPerFile = 100000;
 
 std::string lineDirective(std::size_t line, std::size_t file) {
@@ -94,11 +94,13 @@ public:
             at = end + 1;
             ++lineNumber;
             const std::string included(includedName(line));
-            if (included.empty()) out.text.append(line);
+            if (included.empty())
+                out.text.append(line);
             else if (std::find(out.files.begin(), out.files.end(), included) == out.files.end()) {
                 const auto inner = shaderText(included, shaderDir_);
                 if (!inner)
-                    return internalError(fmt::format("{}:{}: error: no shader named \"{}\"", name, lineNumber, included));
+                    return internalError(
+                        fmt::format("{}:{}: error: no shader named \"{}\"", name, lineNumber, included));
                 out.text += lineDirective(1, out.files.size());
                 SHOAL_TRY(add(included, *inner));
                 out.text += lineDirective(lineNumber + 1, number);
@@ -116,7 +118,7 @@ private:
 };
 
 struct Place {
-    std::size_t file = 0, line = 0, length = 0;   // length: characters of the log it takes
+    std::size_t file = 0, line = 0, length = 0;  // length: characters of the log it takes
 };
 
 std::optional<std::size_t> takeNumber(std::string_view text, std::size_t& at) {
@@ -184,7 +186,8 @@ std::optional<std::string> shaderText(std::string_view name, const std::string& 
 std::string_view shaderStage(std::string_view name) {
     if (name.ends_with(".glsl")) name.remove_suffix(5);
     for (std::string_view stage : {"vert", "frag", "comp", "geom"})
-        if (name.size() > stage.size() && name.ends_with(stage) && name[name.size() - stage.size() - 1] == '.') return stage;
+        if (name.size() > stage.size() && name.ends_with(stage) && name[name.size() - stage.size() - 1] == '.')
+            return stage;
     return {};
 }
 
@@ -232,8 +235,9 @@ std::string withDefines(const std::string& flat, const std::vector<std::pair<std
 Result<FlatSource> flattenShader(const std::string& name, const std::string& shaderDir) {
     const auto text = shaderText(name, shaderDir);
     if (!text)
-        return internalError(shaderDir.empty() ? fmt::format("{}: no such shader is embedded", name)
-                                               : fmt::format("{}: no such shader below {} nor embedded", name, shaderDir));
+        return internalError(shaderDir.empty()
+                                 ? fmt::format("{}: no such shader is embedded", name)
+                                 : fmt::format("{}: no such shader below {} nor embedded", name, shaderDir));
     Flattener flattener(shaderDir);
     SHOAL_TRY(flattener.add(name, *text));
     return std::move(flattener.out);

@@ -21,24 +21,24 @@ void setRaster() {
 }
 
 void setPerSample() {
-    glDepthFunc(GL_GREATER);   // reversed z
+    glDepthFunc(GL_GREATER);  // reversed z
     glDepthMask(GL_TRUE);
     glStencilFunc(GL_ALWAYS, 0, 0xFFFFFFFFu);
     glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
     glStencilMask(0xFFFFFFFFu);
     glBlendColor(0, 0, 0, 0);
-    glBlendEquation(GL_FUNC_ADD);       // these three set every draw buffer
+    glBlendEquation(GL_FUNC_ADD);  // these three set every draw buffer
     glBlendFunc(GL_ONE, GL_ZERO);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glDisable(GL_BLEND);
-    glDisable(GL_SCISSOR_TEST);         // every viewport
+    glDisable(GL_SCISSOR_TEST);  // every viewport
     glLogicOp(GL_COPY);
     glSampleCoverage(1, GL_FALSE);
     glSampleMaski(0, 0xFFFFFFFFu);
     glMinSampleShading(0);
     glClampColor(GL_CLAMP_READ_COLOR, GL_FIXED_ONLY);
     glClearColor(0, 0, 0, 0);
-    glClearDepth(0);                    // reversed z: 0 is far
+    glClearDepth(0);  // reversed z: 0 is far
     glClearStencil(0);
 }
 

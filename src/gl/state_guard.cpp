@@ -105,10 +105,12 @@ struct SampleState {
         sampleMask = getInt(GL_SAMPLE_MASK_VALUE, 0);
         glGetBooleanv(GL_DEPTH_WRITEMASK, &depthMask);
         glGetBooleanv(GL_SAMPLE_COVERAGE_INVERT, &coverageInvert);
-        front = {getInt(GL_STENCIL_FUNC), getInt(GL_STENCIL_REF), getInt(GL_STENCIL_VALUE_MASK), getInt(GL_STENCIL_WRITEMASK),
-                 getInt(GL_STENCIL_FAIL), getInt(GL_STENCIL_PASS_DEPTH_FAIL), getInt(GL_STENCIL_PASS_DEPTH_PASS)};
-        back = {getInt(GL_STENCIL_BACK_FUNC), getInt(GL_STENCIL_BACK_REF), getInt(GL_STENCIL_BACK_VALUE_MASK),
-                getInt(GL_STENCIL_BACK_WRITEMASK), getInt(GL_STENCIL_BACK_FAIL), getInt(GL_STENCIL_BACK_PASS_DEPTH_FAIL),
+        front = {getInt(GL_STENCIL_FUNC),           getInt(GL_STENCIL_REF),  getInt(GL_STENCIL_VALUE_MASK),
+                 getInt(GL_STENCIL_WRITEMASK),      getInt(GL_STENCIL_FAIL), getInt(GL_STENCIL_PASS_DEPTH_FAIL),
+                 getInt(GL_STENCIL_PASS_DEPTH_PASS)};
+        back = {getInt(GL_STENCIL_BACK_FUNC),           getInt(GL_STENCIL_BACK_REF),
+                getInt(GL_STENCIL_BACK_VALUE_MASK),     getInt(GL_STENCIL_BACK_WRITEMASK),
+                getInt(GL_STENCIL_BACK_FAIL),           getInt(GL_STENCIL_BACK_PASS_DEPTH_FAIL),
                 getInt(GL_STENCIL_BACK_PASS_DEPTH_PASS)};
         glGetFloatv(GL_BLEND_COLOR, blendColor);
         glGetFloatv(GL_COLOR_CLEAR_VALUE, clearColor);
@@ -140,12 +142,14 @@ struct SampleState {
         glBlendColor(blendColor[0], blendColor[1], blendColor[2], blendColor[3]);
         glClearColor(clearColor[0], clearColor[1], clearColor[2], clearColor[3]);
         glClearDepth(clearDepth), glClearStencil(clearStencil);
-        glSampleCoverage(coverage, coverageInvert), glSampleMaski(0, GLbitfield(sampleMask)), glMinSampleShading(minShading);
+        glSampleCoverage(coverage, coverageInvert), glSampleMaski(0, GLbitfield(sampleMask)),
+            glMinSampleShading(minShading);
         for (GLuint i = 0; i < drawBuffers.size(); ++i) {
             const DrawBuffer& d = drawBuffers[i];
             d.blend ? glEnablei(GL_BLEND, i) : glDisablei(GL_BLEND, i);
             glBlendEquationSeparatei(i, GLenum(d.equationRgb), GLenum(d.equationAlpha));
-            glBlendFuncSeparatei(i, GLenum(d.sourceRgb), GLenum(d.targetRgb), GLenum(d.sourceAlpha), GLenum(d.targetAlpha));
+            glBlendFuncSeparatei(i, GLenum(d.sourceRgb), GLenum(d.targetRgb), GLenum(d.sourceAlpha),
+                                 GLenum(d.targetAlpha));
             glColorMaski(i, d.mask[0], d.mask[1], d.mask[2], d.mask[3]);
         }
     }
@@ -174,8 +178,10 @@ struct BufferBindings {
         for (GLuint i = 0; i < ranges.size(); ++i) {
             const Range& r = ranges[i];
             // Size 0 says that the whole buffer was bound.
-            if (r.name && r.size > 0) glBindBufferRange(target, i, GLuint(r.name), GLintptr(r.start), GLsizeiptr(r.size));
-            else glBindBufferBase(target, i, GLuint(r.name));
+            if (r.name && r.size > 0)
+                glBindBufferRange(target, i, GLuint(r.name), GLintptr(r.start), GLsizeiptr(r.size));
+            else
+                glBindBufferBase(target, i, GLuint(r.name));
         }
         glBindBuffer(target, GLuint(plain));
     }
@@ -215,15 +221,16 @@ struct TextureBindings {
         units.resize(atMost(kTextureUnitCount, GL_MAX_COMBINED_TEXTURE_IMAGE_UNITS));
         for (GLuint i = 0; i < units.size(); ++i) {
             glActiveTexture(GL_TEXTURE0 + i);
-            for (std::size_t t = 0; t < kTextureTargets.size(); ++t) units[i].textures[t] = getInt(kTextureTargets[t].binding);
+            for (std::size_t t = 0; t < kTextureTargets.size(); ++t)
+                units[i].textures[t] = getInt(kTextureTargets[t].binding);
             units[i].sampler = getInt(GL_SAMPLER_BINDING);
         }
         glActiveTexture(GLenum(active));
         images.resize(atMost(kImageUnitCount, GL_MAX_IMAGE_UNITS));
         for (GLuint i = 0; i < images.size(); ++i)
-            images[i] = {getInt(GL_IMAGE_BINDING_NAME, i),  getInt(GL_IMAGE_BINDING_LEVEL, i),
+            images[i] = {getInt(GL_IMAGE_BINDING_NAME, i),    getInt(GL_IMAGE_BINDING_LEVEL, i),
                          getInt(GL_IMAGE_BINDING_LAYERED, i), getInt(GL_IMAGE_BINDING_LAYER, i),
-                         getInt(GL_IMAGE_BINDING_ACCESS, i), getInt(GL_IMAGE_BINDING_FORMAT, i)};
+                         getInt(GL_IMAGE_BINDING_ACCESS, i),  getInt(GL_IMAGE_BINDING_FORMAT, i)};
     }
     void restore() const {
         for (GLuint i = 0; i < units.size(); ++i) {
@@ -249,7 +256,8 @@ struct ObjectBindings {
         drawFramebuffer = getInt(GL_DRAW_FRAMEBUFFER_BINDING), readFramebuffer = getInt(GL_READ_FRAMEBUFFER_BINDING);
         vertexArray = getInt(GL_VERTEX_ARRAY_BINDING), program = getInt(GL_CURRENT_PROGRAM);
         pipeline = getInt(GL_PROGRAM_PIPELINE_BINDING);
-        drawIndirect = getInt(GL_DRAW_INDIRECT_BUFFER_BINDING), dispatchIndirect = getInt(GL_DISPATCH_INDIRECT_BUFFER_BINDING);
+        drawIndirect = getInt(GL_DRAW_INDIRECT_BUFFER_BINDING),
+        dispatchIndirect = getInt(GL_DISPATCH_INDIRECT_BUFFER_BINDING);
     }
     void restore() const {
         glBindFramebuffer(GL_DRAW_FRAMEBUFFER, GLuint(drawFramebuffer));
@@ -270,9 +278,14 @@ struct StateGuard::Saved {
     PixelStoreState pixels;
     TextureBindings textures;
     ObjectBindings objects;
-    BufferBindings uniforms{GL_UNIFORM_BUFFER, GL_UNIFORM_BUFFER_BINDING, GL_UNIFORM_BUFFER_START, GL_UNIFORM_BUFFER_SIZE, 0, {}};
-    BufferBindings storage{GL_SHADER_STORAGE_BUFFER, GL_SHADER_STORAGE_BUFFER_BINDING, GL_SHADER_STORAGE_BUFFER_START,
-                           GL_SHADER_STORAGE_BUFFER_SIZE, 0, {}};
+    BufferBindings uniforms{
+        GL_UNIFORM_BUFFER, GL_UNIFORM_BUFFER_BINDING, GL_UNIFORM_BUFFER_START, GL_UNIFORM_BUFFER_SIZE, 0, {}};
+    BufferBindings storage{GL_SHADER_STORAGE_BUFFER,
+                           GL_SHADER_STORAGE_BUFFER_BINDING,
+                           GL_SHADER_STORAGE_BUFFER_START,
+                           GL_SHADER_STORAGE_BUFFER_SIZE,
+                           0,
+                           {}};
 };
 
 StateGuard::StateGuard() : saved_(std::make_unique<Saved>()) {

@@ -9,10 +9,11 @@ namespace shoal::gl {
 
 struct Switch {
     GLenum name;
-    bool on;   // in Shoal's known state
+    bool on;  // in Shoal's known state
 };
 
-// Dither is off so that a picture has the same bits on every driver; sRGB conversion is off because shaders encode themselves.
+// Dither is off so that a picture has the same bits on every driver; sRGB conversion is off because shaders encode
+// themselves.
 inline constexpr std::array kSwitches{
     Switch{GL_COLOR_LOGIC_OP, false},
     Switch{GL_CULL_FACE, false},

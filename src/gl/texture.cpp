@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 
 #include <shoal/core/assert.h>
@@ -12,32 +13,40 @@
 namespace shoal::gl {
 namespace {
 
-// Bytes of one texel (of a 4 x 4 block for block-compressed formats).
+// Formats of one size, in bytes per texel (per 4 x 4 block for block-compressed formats). Unused places are 0.
 struct FormatSize {
     int bytes = 0;
     bool block = false;
+    std::array<GLenum, 20> formats{};
 };
 
+constexpr FormatSize kFormatSizes[] = {
+    {1, false, {GL_R8, GL_R8_SNORM, GL_R8UI, GL_R8I}},
+    {2,
+     false,
+     {GL_RG8, GL_RG8_SNORM, GL_RG8UI, GL_RG8I, GL_R16, GL_R16_SNORM, GL_R16F, GL_R16UI, GL_R16I, GL_RGB565,
+      GL_DEPTH_COMPONENT16}},
+    {3, false, {GL_RGB8, GL_SRGB8, GL_DEPTH_COMPONENT24}},
+    {4, false, {GL_RGBA8, GL_RGBA8_SNORM, GL_SRGB8_ALPHA8, GL_RGBA8UI, GL_RGBA8I, GL_RGB10_A2, GL_RGB10_A2UI}},
+    {4, false, {GL_R11F_G11F_B10F, GL_RGB9_E5, GL_RG16, GL_RG16_SNORM, GL_RG16F, GL_RG16UI, GL_RG16I}},
+    {4, false, {GL_R32F, GL_R32UI, GL_R32I, GL_DEPTH_COMPONENT32, GL_DEPTH_COMPONENT32F, GL_DEPTH24_STENCIL8}},
+    {6, false, {GL_RGB16, GL_RGB16F}},
+    {8, false, {GL_RGBA16, GL_RGBA16_SNORM, GL_RGBA16F, GL_RGBA16UI, GL_RGBA16I, GL_RG32F, GL_RG32UI, GL_RG32I}},
+    {8, false, {GL_DEPTH32F_STENCIL8}},
+    {12, false, {GL_RGB32F, GL_RGB32UI, GL_RGB32I}},
+    {16, false, {GL_RGBA32F, GL_RGBA32UI, GL_RGBA32I}},
+    {8, true, {GL_COMPRESSED_RED_RGTC1}},
+    {16,
+     true,
+     {GL_COMPRESSED_RG_RGTC2, GL_COMPRESSED_RGBA_BPTC_UNORM, GL_COMPRESSED_SRGB_ALPHA_BPTC_UNORM,
+      GL_COMPRESSED_RGB_BPTC_SIGNED_FLOAT, GL_COMPRESSED_RGB_BPTC_UNSIGNED_FLOAT}},
+};
+
+// 0 bytes for formats without a fixed size.
 FormatSize formatSize(GLenum format) {
-    switch (format) {
-        case GL_R8: case GL_R8_SNORM: case GL_R8UI: case GL_R8I: return {1};
-        case GL_RG8: case GL_RG8_SNORM: case GL_RG8UI: case GL_RG8I: case GL_R16: case GL_R16_SNORM: case GL_R16F:
-        case GL_R16UI: case GL_R16I: case GL_DEPTH_COMPONENT16: case GL_RGB565: return {2};
-        case GL_RGB8: case GL_SRGB8: case GL_DEPTH_COMPONENT24: return {3};
-        case GL_RGBA8: case GL_RGBA8_SNORM: case GL_SRGB8_ALPHA8: case GL_RGBA8UI: case GL_RGBA8I: case GL_RGB10_A2:
-        case GL_RGB10_A2UI: case GL_R11F_G11F_B10F: case GL_RGB9_E5: case GL_RG16: case GL_RG16_SNORM: case GL_RG16F:
-        case GL_RG16UI: case GL_RG16I: case GL_R32F: case GL_R32UI: case GL_R32I: case GL_DEPTH_COMPONENT32:
-        case GL_DEPTH_COMPONENT32F: case GL_DEPTH24_STENCIL8: return {4};
-        case GL_RGB16: case GL_RGB16F: return {6};
-        case GL_RGBA16: case GL_RGBA16_SNORM: case GL_RGBA16F: case GL_RGBA16UI: case GL_RGBA16I: case GL_RG32F:
-        case GL_RG32UI: case GL_RG32I: case GL_DEPTH32F_STENCIL8: return {8};
-        case GL_RGB32F: case GL_RGB32UI: case GL_RGB32I: return {12};
-        case GL_RGBA32F: case GL_RGBA32UI: case GL_RGBA32I: return {16};
-        case GL_COMPRESSED_RED_RGTC1: return {8, true};
-        case GL_COMPRESSED_RG_RGTC2: case GL_COMPRESSED_RGBA_BPTC_UNORM: case GL_COMPRESSED_SRGB_ALPHA_BPTC_UNORM:
-        case GL_COMPRESSED_RGB_BPTC_SIGNED_FLOAT: case GL_COMPRESSED_RGB_BPTC_UNSIGNED_FLOAT: return {16, true};
-        default: return {};
-    }
+    for (const FormatSize& row : kFormatSizes)
+        if (format && std::find(row.formats.begin(), row.formats.end(), format) != row.formats.end()) return row;
+    return {};
 }
 
 std::int64_t storageBytes(const TextureView& t) {
@@ -60,19 +69,23 @@ int fullLevelCount(const TextureView& t) {
 void allocate(const TextureView& t) {
     if (t.target == GL_TEXTURE_2D || t.target == GL_TEXTURE_CUBE_MAP)
         glTextureStorage2D(t.name, t.levels, t.format, t.width, t.height);
-    else glTextureStorage3D(t.name, t.levels, t.format, t.width, t.height, t.layers);
+    else
+        glTextureStorage3D(t.name, t.levels, t.format, t.width, t.height, t.layers);
 }
 
 void requireSane(Device& device, const TextureDesc& d) {
-    SHOAL_ASSERT_MSG(device.state().isCurrent(),
-                     fmt::format("device \"{}\" is not current on this thread: call makeCurrent()", device.info().name));
-    SHOAL_ASSERT_MSG(d.width > 0 && d.height > 0 && d.layers > 0 && d.levels >= 0,
-                     fmt::format("texture \"{}\" of {} x {} x {}, {} levels", d.label, d.width, d.height, d.layers, d.levels));
+    SHOAL_ASSERT_MSG(
+        device.state().isCurrent(),
+        fmt::format("device \"{}\" is not current on this thread: call makeCurrent()", device.info().name));
+    SHOAL_ASSERT_MSG(
+        d.width > 0 && d.height > 0 && d.layers > 0 && d.levels >= 0,
+        fmt::format("texture \"{}\" of {} x {} x {}, {} levels", d.label, d.width, d.height, d.layers, d.levels));
     SHOAL_ASSERT_MSG(d.target == GL_TEXTURE_2D || d.target == GL_TEXTURE_2D_ARRAY || d.target == GL_TEXTURE_3D ||
                          d.target == GL_TEXTURE_CUBE_MAP || d.target == GL_TEXTURE_CUBE_MAP_ARRAY,
                      fmt::format("texture \"{}\": unexpected target 0x{:04x}", d.label, d.target));
-    SHOAL_ASSERT_MSG(formatSize(d.format).bytes > 0,
-                     fmt::format("texture \"{}\": unexpected format 0x{:04x}; expected a sized one", d.label, d.format));
+    SHOAL_ASSERT_MSG(
+        formatSize(d.format).bytes > 0,
+        fmt::format("texture \"{}\": unexpected format 0x{:04x}; expected a sized one", d.label, d.format));
 }
 
 }  // namespace
@@ -85,11 +98,11 @@ Texture Texture::create(Device& device, const TextureDesc& desc) {
     view.levels = desc.levels == 0 ? fullLevelCount(view) : std::min(desc.levels, fullLevelCount(view));
     glCreateTextures(desc.target, 1, &view.name);
     allocate(view);
-    GLint width = 0;   // stays 0 where the storage was refused, for its size or for want of memory
+    GLint width = 0;  // stays 0 where the storage was refused, for its size or for want of memory
     glGetTextureLevelParameteriv(view.name, 0, GL_TEXTURE_WIDTH, &width);
     if (width != desc.width) {
-        device.log(LogLevel::error, fmt::format("no storage for texture \"{}\": {} x {} x {}, {} bytes", desc.label, view.width,
-                                                view.height, view.layers, storageBytes(view)));
+        device.log(LogLevel::error, fmt::format("no storage for texture \"{}\": {} x {} x {}, {} bytes", desc.label,
+                                                view.width, view.height, view.layers, storageBytes(view)));
         glDeleteTextures(1, &view.name);
         return {};
     }

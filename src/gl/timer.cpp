@@ -13,7 +13,7 @@
 namespace shoal::gl {
 namespace {
 
-constexpr int kFrameCount = 4;   // frames in flight before one goes unmeasured rather than wait
+constexpr int kFrameCount = 4;  // frames in flight before one goes unmeasured rather than wait
 
 class TimestampQuery : public Object {
 public:
@@ -42,8 +42,8 @@ struct Span {
 
 struct FrameTimer::State {
     struct Frame {
-        std::vector<Span> spans;               // the first is the frame itself
-        std::vector<TimestampQuery> queries;   // grows in the first frames, then is reused
+        std::vector<Span> spans;              // the first is the frame itself
+        std::vector<TimestampQuery> queries;  // grows in the first frames, then is reused
         std::size_t spanCount = 0, queryCount = 0;
         bool pending = false;
     };
@@ -53,10 +53,10 @@ struct FrameTimer::State {
     Device& device;
     bool software;
     bool enabled = false;
-    bool measuring = false;                    // between beginFrame and endFrame of a frame that has room
+    bool measuring = false;  // between beginFrame and endFrame of a frame that has room
     std::array<Frame, kFrameCount> frames;
     int current = 0;
-    std::vector<std::size_t> open;             // spans begun and not ended, innermost last
+    std::vector<std::size_t> open;  // spans begun and not ended, innermost last
     std::vector<PassTime> passes;
     double frameMs = 0;
 
@@ -85,7 +85,7 @@ struct FrameTimer::State {
     }
 
     static bool ready(const Frame& f) {
-        GLint available = GL_FALSE;   // results come in order: the last query tells for all
+        GLint available = GL_FALSE;  // results come in order: the last query tells for all
         glGetQueryObjectiv(f.queries[f.queryCount - 1].name(), GL_QUERY_RESULT_AVAILABLE, &available);
         return available != GL_FALSE;
     }
@@ -104,8 +104,10 @@ struct FrameTimer::State {
             const double ms = timeMs(f, f.spans[i].to) - timeMs(f, f.spans[i].from);
             auto found = passes.begin();
             while (found != passes.end() && found->name != f.spans[i].name) ++found;
-            if (found == passes.end()) passes.push_back({f.spans[i].name, ms});
-            else found->timeMs += ms;
+            if (found == passes.end())
+                passes.push_back({f.spans[i].name, ms});
+            else
+                found->timeMs += ms;
         }
         f.pending = false;
     }
@@ -135,7 +137,7 @@ void FrameTimer::beginFrame() {
     s.collect();
     s.current = (s.current + 1) % kFrameCount;
     State::Frame& f = s.frames[s.current];
-    if (f.pending) {   // the GPU is a whole ring behind: do not wait for it
+    if (f.pending) {  // the GPU is a whole ring behind: do not wait for it
         s.current = (s.current + kFrameCount - 1) % kFrameCount;
         return;
     }

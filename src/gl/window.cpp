@@ -1,15 +1,15 @@
 #include <shoal/gl/window.h>
 
 #define GLFW_INCLUDE_NONE
-#include <GLFW/glfw3.h>
 #include <fmt/format.h>
+#include <GLFW/glfw3.h>
 
 #include "gl/device_state.h"
 
 namespace shoal::gl {
 namespace {
 
-int windowCount = 0;   // GLFW is started by the first window and stopped by the last; one thread, as GLFW demands
+int windowCount = 0;  // GLFW is started by the first window and stopped by the last; one thread, as GLFW demands
 
 std::string glfwProblem() {
     const char* text = nullptr;
@@ -27,7 +27,8 @@ public:
     ~WindowContext() override { forgetCurrent(*this); }
     Result<void> makeCurrent() override {
         glfwMakeContextCurrent(window_);
-        if (glfwGetCurrentContext() != window_) return internalError("the window's context cannot be made current: " + glfwProblem());
+        if (glfwGetCurrentContext() != window_)
+            return internalError("the window's context cannot be made current: " + glfwProblem());
         return {};
     }
     void release() override {
@@ -60,7 +61,8 @@ Result<std::unique_ptr<Window>> Window::open(int width, int height, const std::s
     SHOAL_ASSERT(width > 0 && height > 0);
     if (std::string problem = missingGlLibrary(false); !problem.empty()) return noDevice(problem);
     if (windowCount == 0 && !glfwInit())
-        return noDevice(fmt::format("no window: {} (a window needs a display; rendering to files does not)", glfwProblem()));
+        return noDevice(
+            fmt::format("no window: {} (a window needs a display; rendering to files does not)", glfwProblem()));
     ++windowCount;
     auto state = std::make_unique<State>();
     glfwDefaultWindowHints();
@@ -69,7 +71,7 @@ Result<std::unique_ptr<Window>> Window::open(int width, int height, const std::s
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
     glfwWindowHint(GLFW_OPENGL_DEBUG_CONTEXT, options.debug ? GLFW_TRUE : GLFW_FALSE);
     glfwWindowHint(GLFW_VISIBLE, visible ? GLFW_TRUE : GLFW_FALSE);
-    glfwWindowHint(GLFW_DEPTH_BITS, 0);      // Shoal draws into its own targets
+    glfwWindowHint(GLFW_DEPTH_BITS, 0);  // Shoal draws into its own targets
     glfwWindowHint(GLFW_STENCIL_BITS, 0);
     state->window = glfwCreateWindow(width, height, title.c_str(), nullptr, nullptr);
     if (!state->window) return noDevice(fmt::format("no window with an OpenGL 4.5 core context: {}", glfwProblem()));

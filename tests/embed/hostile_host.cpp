@@ -48,13 +48,18 @@ using Picture = std::array<std::uint32_t, kSize * kSize>;
 
 // What a small renderer does: upload, clear, draw a textured quad, run a compute pass over it, read.
 Picture draw(Device& device, bool startKnown) {
-    Texture texture = Texture::create(device, {.width = 4, .height = 4, .minFilter = GL_LINEAR, .magFilter = GL_LINEAR,
-                                               .wrap = GL_REPEAT, .label = "texture"});
+    Texture texture = Texture::create(device, {.width = 4,
+                                               .height = 4,
+                                               .minFilter = GL_LINEAR,
+                                               .magFilter = GL_LINEAR,
+                                               .wrap = GL_REPEAT,
+                                               .label = "texture"});
     std::array<std::uint32_t, 16> texels{};
     for (std::uint32_t i = 0; i < 16; ++i) texels[i] = 0xFF000000u | (i * 0x0F0A05u);
     texture.upload(0, 0, GL_RGBA, GL_UNSIGNED_BYTE, texels.data());
     Texture color = Texture::create(device, {.width = kSize, .height = kSize, .label = "color"});
-    Texture depth = Texture::create(device, {.format = GL_DEPTH_COMPONENT32F, .width = kSize, .height = kSize, .label = "depth"});
+    Texture depth =
+        Texture::create(device, {.format = GL_DEPTH_COMPONENT32F, .width = kSize, .height = kSize, .label = "depth"});
     const Framebuffer::Attachment colors[] = {{color, 0, -1}};
     const auto target = Framebuffer::create(device, colors, {depth, 0, -1}, "target");
     const float corners[] = {-1, -1, 1, -1, 1, 1, -1, 1};
@@ -125,7 +130,7 @@ TEST_F(HostileHostTest, GuardGivesBackAFreshContextsStateToo) {
         const StateGuard guard;
         const HostileHost host;
         host.mess();
-        glBindBuffer(GL_ARRAY_BUFFER, 0);   // what no pass of Shoal's touches, and no guard saves
+        glBindBuffer(GL_ARRAY_BUFFER, 0);  // what no pass of Shoal's touches, and no guard saves
         glBindBuffer(GL_COPY_READ_BUFFER, 0);
         glBindBuffer(GL_COPY_WRITE_BUFFER, 0);
     }
@@ -153,7 +158,8 @@ TEST_F(HostileHostTest, ADeviceOfTheHostsContextLeavesNoNamesBehind) {
     auto names = [] {
         std::array<int, 6> counts{};
         for (GLuint i = 1; i < 1000; ++i) {
-            counts[0] += glIsBuffer(i), counts[1] += glIsTexture(i), counts[2] += glIsProgram(i), counts[3] += glIsFramebuffer(i);
+            counts[0] += glIsBuffer(i), counts[1] += glIsTexture(i), counts[2] += glIsProgram(i),
+                counts[3] += glIsFramebuffer(i);
             counts[4] += glIsVertexArray(i), counts[5] += glIsShader(i);
         }
         return counts;
@@ -164,7 +170,8 @@ TEST_F(HostileHostTest, ADeviceOfTheHostsContextLeavesNoNamesBehind) {
     void *callback = nullptr, *callbackAfter = nullptr;
     glGetPointerv(GL_DEBUG_CALLBACK_FUNCTION, &callback);
     {
-        auto guest = Device::fromCurrentContext({.device = "auto", .log = {}, .debug = true, .shaderDir = folder.path()});
+        auto guest =
+            Device::fromCurrentContext({.device = "auto", .log = {}, .debug = true, .shaderDir = folder.path()});
         ASSERT_TRUE(guest) << guest.error().message;
         EXPECT_EQ((*guest)->info().name, "host");
         EXPECT_TRUE((*guest)->makeCurrent());
@@ -180,7 +187,7 @@ TEST_F(HostileHostTest, ADeviceOfTheHostsContextLeavesNoNamesBehind) {
     EXPECT_EQ(depthAfter, depthBefore);
     EXPECT_EQ(callbackAfter, callback) << "the host's message callback is back";
     auto after = names();
-    after[2] -= int(device().programs().size());   // of this test's own device
+    after[2] -= int(device().programs().size());  // of this test's own device
     EXPECT_EQ(after, before);
 }
 
@@ -199,7 +206,7 @@ TEST_F(HostileHostTest, TwoDevicesInOneProcessTakeTurns) {
         EXPECT_EQ(current.liveBytes(), 64);
     }
     ASSERT_TRUE(devices[0]->makeCurrent());
-    kept[1] = Buffer();   // deleted in its own context, not in the current one
+    kept[1] = Buffer();  // deleted in its own context, not in the current one
     EXPECT_TRUE(glIsBuffer(kept[0].name()));
     EXPECT_EQ(devices[1]->liveBytes(), 0);
     EXPECT_EQ(devices[1]->debugErrorCount(), 0) << messages.all();

@@ -54,11 +54,29 @@ public:
 
 private:
     static void messSwitches() {
-        for (GLenum e : {GL_BLEND, GL_COLOR_LOGIC_OP, GL_CULL_FACE, GL_DEPTH_CLAMP, GL_DEPTH_TEST, GL_DITHER, GL_FRAMEBUFFER_SRGB,
-                         GL_LINE_SMOOTH, GL_POLYGON_OFFSET_FILL, GL_POLYGON_OFFSET_LINE, GL_POLYGON_OFFSET_POINT,
-                         GL_POLYGON_SMOOTH, GL_PRIMITIVE_RESTART, GL_PRIMITIVE_RESTART_FIXED_INDEX, GL_PROGRAM_POINT_SIZE,
-                         GL_RASTERIZER_DISCARD, GL_SAMPLE_ALPHA_TO_COVERAGE, GL_SAMPLE_ALPHA_TO_ONE, GL_SAMPLE_COVERAGE,
-                         GL_SAMPLE_MASK, GL_SAMPLE_SHADING, GL_SCISSOR_TEST, GL_STENCIL_TEST})
+        for (GLenum e : {GL_BLEND,
+                         GL_COLOR_LOGIC_OP,
+                         GL_CULL_FACE,
+                         GL_DEPTH_CLAMP,
+                         GL_DEPTH_TEST,
+                         GL_DITHER,
+                         GL_FRAMEBUFFER_SRGB,
+                         GL_LINE_SMOOTH,
+                         GL_POLYGON_OFFSET_FILL,
+                         GL_POLYGON_OFFSET_LINE,
+                         GL_POLYGON_OFFSET_POINT,
+                         GL_POLYGON_SMOOTH,
+                         GL_PRIMITIVE_RESTART,
+                         GL_PRIMITIVE_RESTART_FIXED_INDEX,
+                         GL_PROGRAM_POINT_SIZE,
+                         GL_RASTERIZER_DISCARD,
+                         GL_SAMPLE_ALPHA_TO_COVERAGE,
+                         GL_SAMPLE_ALPHA_TO_ONE,
+                         GL_SAMPLE_COVERAGE,
+                         GL_SAMPLE_MASK,
+                         GL_SAMPLE_SHADING,
+                         GL_SCISSOR_TEST,
+                         GL_STENCIL_TEST})
             glEnable(e);
         glDisable(GL_MULTISAMPLE);
         glDisable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
@@ -75,7 +93,8 @@ private:
         glDepthFunc(GL_NEVER), glDepthMask(GL_FALSE), glClearDepth(0.25);
         glStencilFuncSeparate(GL_FRONT, GL_NEVER, 3, 0x0F), glStencilFuncSeparate(GL_BACK, GL_LESS, 5, 0xF0);
         glStencilMaskSeparate(GL_FRONT, 0x11), glStencilMaskSeparate(GL_BACK, 0x22);
-        glStencilOpSeparate(GL_FRONT, GL_INCR, GL_DECR, GL_INVERT), glStencilOpSeparate(GL_BACK, GL_ZERO, GL_REPLACE, GL_INCR_WRAP);
+        glStencilOpSeparate(GL_FRONT, GL_INCR, GL_DECR, GL_INVERT),
+            glStencilOpSeparate(GL_BACK, GL_ZERO, GL_REPLACE, GL_INCR_WRAP);
         glClearStencil(7);
         glLogicOp(GL_XOR);
         glClampColor(GL_CLAMP_READ_COLOR, GL_TRUE);
@@ -94,10 +113,12 @@ private:
             i % 3 ? glEnablei(GL_SCISSOR_TEST, i) : glDisablei(GL_SCISSOR_TEST, i);
         }
         glEnablei(GL_SCISSOR_TEST, 0);
-        for (GLenum e : {GL_PACK_SWAP_BYTES, GL_PACK_LSB_FIRST, GL_UNPACK_SWAP_BYTES, GL_UNPACK_LSB_FIRST}) glPixelStorei(e, 1);
-        for (GLenum e : {GL_PACK_ROW_LENGTH, GL_PACK_IMAGE_HEIGHT, GL_UNPACK_ROW_LENGTH, GL_UNPACK_IMAGE_HEIGHT}) glPixelStorei(e, 37);
-        for (GLenum e : {GL_PACK_SKIP_ROWS, GL_PACK_SKIP_PIXELS, GL_PACK_SKIP_IMAGES, GL_UNPACK_SKIP_ROWS, GL_UNPACK_SKIP_PIXELS,
-                         GL_UNPACK_SKIP_IMAGES})
+        for (GLenum e : {GL_PACK_SWAP_BYTES, GL_PACK_LSB_FIRST, GL_UNPACK_SWAP_BYTES, GL_UNPACK_LSB_FIRST})
+            glPixelStorei(e, 1);
+        for (GLenum e : {GL_PACK_ROW_LENGTH, GL_PACK_IMAGE_HEIGHT, GL_UNPACK_ROW_LENGTH, GL_UNPACK_IMAGE_HEIGHT})
+            glPixelStorei(e, 37);
+        for (GLenum e : {GL_PACK_SKIP_ROWS, GL_PACK_SKIP_PIXELS, GL_PACK_SKIP_IMAGES, GL_UNPACK_SKIP_ROWS,
+                         GL_UNPACK_SKIP_PIXELS, GL_UNPACK_SKIP_IMAGES})
             glPixelStorei(e, 3);
         glPixelStorei(GL_PACK_ALIGNMENT, 8), glPixelStorei(GL_UNPACK_ALIGNMENT, 2);
     }
@@ -112,8 +133,10 @@ private:
             glBindBuffer(e, buffer_);
         for (GLuint i = 0; i < 16; ++i) {
             glBindBufferRange(GL_UNIFORM_BUFFER, i, buffer_, 256 * GLintptr(i), 64);
-            if (i % 2) glBindBufferBase(GL_SHADER_STORAGE_BUFFER, i, buffer_);
-            else glBindBufferRange(GL_SHADER_STORAGE_BUFFER, i, buffer_, 256 * GLintptr(i), 128);
+            if (i % 2)
+                glBindBufferBase(GL_SHADER_STORAGE_BUFFER, i, buffer_);
+            else
+                glBindBufferRange(GL_SHADER_STORAGE_BUFFER, i, buffer_, 256 * GLintptr(i), 128);
         }
         glBindBuffer(GL_UNIFORM_BUFFER, 0);
         for (GLuint i = 0; i < 32; ++i) {
@@ -129,8 +152,8 @@ private:
                   : glBindImageTexture(i, volume_, 0, GL_TRUE, 0, GL_WRITE_ONLY, GL_R32F);
     }
 
-    GLuint buffer_ = 0, texture_ = 0, cube_ = 0, volume_ = 0, sampler_ = 0, framebuffer_ = 0, vertexArray_ = 0, program_ = 0,
-           pipeline_ = 0;
+    GLuint buffer_ = 0, texture_ = 0, cube_ = 0, volume_ = 0, sampler_ = 0, framebuffer_ = 0, vertexArray_ = 0,
+           program_ = 0, pipeline_ = 0;
 };
 
 }  // namespace shoal::test

@@ -23,7 +23,8 @@ TEST_F(GlDevice, SaysWhatItIs) {
     EXPECT_FALSE(info.vendor.empty());
     EXPECT_NE(info.version.find("4."), std::string::npos) << info.version;
     EXPECT_TRUE(info.problem.empty());
-    const Capabilities& can = device().capabilities();   // minimums of the OpenGL 4.5 specification, tables 23.53 to 23.66
+    const Capabilities& can =
+        device().capabilities();  // minimums of the OpenGL 4.5 specification, tables 23.53 to 23.66
     EXPECT_GE(can.maxTextureSize, 16384);
     EXPECT_GE(can.maxSamples, 4);
     EXPECT_GE(can.maxStorageBlockBytes, 1 << 24);
@@ -36,7 +37,8 @@ TEST_F(GlDevice, ReportsAnErrorToTheLogAndCountsIt) {
     glEnable(0xDEAD);
     EXPECT_EQ(device().debugErrorCount(), 1);
     EXPECT_TRUE(messages.contains("error: OpenGL:")) << messages.all();
-    while (glGetError() != GL_NO_ERROR) {}
+    while (glGetError() != GL_NO_ERROR) {
+    }
 }
 
 TEST_F(GlDevice, IsChosenByNameAndByPartOfTheRenderer) {
@@ -57,7 +59,7 @@ TEST_F(GlDevice, ListsItself) {
     }
     EXPECT_TRUE(found);
     GLint probe = 0;
-    glGetIntegerv(GL_MAJOR_VERSION, &probe);   // the context that was current is so still
+    glGetIntegerv(GL_MAJOR_VERSION, &probe);  // the context that was current is so still
     EXPECT_EQ(probe, 4);
 }
 

@@ -48,7 +48,7 @@ TEST_F(GlObjects, MovingKeepsOneOwner) {
     EXPECT_EQ(device().liveObjectCount(), 1);
     {
         Buffer c = Buffer::create(device(), 32, "c");
-        b = std::move(c);   // the old b goes with c
+        b = std::move(c);  // the old b goes with c
     }
     EXPECT_FALSE(glIsBuffer(name));
     EXPECT_EQ(device().liveObjectCount(), 1);
@@ -60,9 +60,12 @@ TEST_F(GlObjects, TextureGivesBackEveryFormat) {
         GLenum internal, format, type;
         std::int64_t texelBytes;
     };
-    const Case cases[] = {{GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, 4},    {GL_R8, GL_RED, GL_UNSIGNED_BYTE, 1},
-                          {GL_RG16F, GL_RG, GL_HALF_FLOAT, 4},         {GL_RGBA32F, GL_RGBA, GL_FLOAT, 16},
-                          {GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, 4}, {GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, 4}};
+    const Case cases[] = {{GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, 4},
+                          {GL_R8, GL_RED, GL_UNSIGNED_BYTE, 1},
+                          {GL_RG16F, GL_RG, GL_HALF_FLOAT, 4},
+                          {GL_RGBA32F, GL_RGBA, GL_FLOAT, 16},
+                          {GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, 4},
+                          {GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, 4}};
     for (const Case& c : cases) {
         Texture t = Texture::create(device(), {.format = c.internal, .width = 5, .height = 3, .label = "round trip"});
         ASSERT_TRUE(t);
@@ -71,7 +74,7 @@ TEST_F(GlObjects, TextureGivesBackEveryFormat) {
         if (c.type == GL_FLOAT)
             for (std::size_t i = 0; i < in.size() / 4; ++i) reinterpret_cast<float*>(in.data())[i] = float(i) / 64;
         else
-            for (std::size_t i = 0; i < in.size(); ++i) in[i] = std::byte(i % 60);   // no half is a NaN then
+            for (std::size_t i = 0; i < in.size(); ++i) in[i] = std::byte(i % 60);  // no half is a NaN then
         t.upload(0, 0, c.format, c.type, in.data());
         t.read(c.format, c.type, out);
         EXPECT_EQ(in, out) << std::hex << c.internal;
@@ -100,8 +103,13 @@ TEST_F(GlObjects, TransfersIgnoreAHostsPixelStore) {
 TEST_F(GlObjects, LayersAndLevelsAreSeparate) {
     for (GLenum target : {GL_TEXTURE_2D_ARRAY, GL_TEXTURE_3D, GL_TEXTURE_CUBE_MAP, GL_TEXTURE_CUBE_MAP_ARRAY}) {
         const int layers = target == GL_TEXTURE_2D_ARRAY || target == GL_TEXTURE_3D ? 4 : 6;
-        Texture t = Texture::create(device(), {.target = target, .format = GL_R32UI, .width = 8, .height = 8, .layers = layers,
-                                               .levels = 2, .label = "layers"});
+        Texture t = Texture::create(device(), {.target = target,
+                                               .format = GL_R32UI,
+                                               .width = 8,
+                                               .height = 8,
+                                               .layers = layers,
+                                               .levels = 2,
+                                               .label = "layers"});
         ASSERT_TRUE(t);
         const std::uint32_t minusOne = ~0u;
         t.clear(GL_RED_INTEGER, GL_UNSIGNED_INT, &minusOne);
@@ -129,7 +137,7 @@ TEST_F(GlObjects, FullMipChainsAreCountedAndFilled) {
     t.generateMipmaps();
     float top = 0;
     glGetTextureImage(t.name(), 3, GL_RED, GL_FLOAT, 4, &top);
-    EXPECT_FLOAT_EQ(top, 15.5f);   // mean of 0..31
+    EXPECT_FLOAT_EQ(top, 15.5f);  // mean of 0..31
 }
 
 TEST_F(GlObjects, AnImpossibleTextureIsEmptyAndLogged) {
@@ -138,14 +146,17 @@ TEST_F(GlObjects, AnImpossibleTextureIsEmptyAndLogged) {
     const Texture t = Texture::create(device(), {.width = tooLarge, .height = 1, .label = "too large"});
     EXPECT_FALSE(t);
     EXPECT_TRUE(messages.contains("no storage for texture \"too large\"")) << messages.all();
-    while (glGetError() != GL_NO_ERROR) {}
+    while (glGetError() != GL_NO_ERROR) {
+    }
 }
 
 TEST_F(GlObjects, FramebufferDrawsIntoEveryAttachment) {
     Texture color = Texture::create(device(), {.format = GL_RGBA32F, .width = 4, .height = 4, .label = "color"});
     Texture ids = Texture::create(
-        device(), {.target = GL_TEXTURE_2D_ARRAY, .format = GL_R32UI, .width = 4, .height = 4, .layers = 3, .label = "ids"});
-    Texture depth = Texture::create(device(), {.format = GL_DEPTH_COMPONENT32F, .width = 4, .height = 4, .label = "depth"});
+        device(),
+        {.target = GL_TEXTURE_2D_ARRAY, .format = GL_R32UI, .width = 4, .height = 4, .layers = 3, .label = "ids"});
+    Texture depth =
+        Texture::create(device(), {.format = GL_DEPTH_COMPONENT32F, .width = 4, .height = 4, .label = "depth"});
     const std::uint32_t none = 0;
     ids.clear(GL_RED_INTEGER, GL_UNSIGNED_INT, &none);
     const Framebuffer::Attachment colors[] = {{color, 0, -1}, {ids, 0, 2}};
@@ -162,7 +173,7 @@ TEST_F(GlObjects, FramebufferDrawsIntoEveryAttachment) {
     glClearBufferfv(GL_DEPTH, 0, &half);
     std::vector<float> gotColor(64), gotDepth(16);
     std::vector<std::uint32_t> gotIds(48), wantIds(48, 0);
-    std::fill(wantIds.begin() + 32, wantIds.end(), 7u);   // layer 2 only
+    std::fill(wantIds.begin() + 32, wantIds.end(), 7u);  // layer 2 only
     color.read(GL_RGBA, GL_FLOAT, writable(gotColor));
     ids.read(GL_RED_INTEGER, GL_UNSIGNED_INT, writable(gotIds));
     depth.read(GL_DEPTH_COMPONENT, GL_FLOAT, writable(gotDepth));
@@ -180,18 +191,21 @@ TEST_F(GlObjects, AnIncompleteFramebufferIsAnError) {
     ASSERT_FALSE(nothing);
     EXPECT_EQ(nothing.error().message, "framebuffer \"nothing\": no attachments");
     Texture plain = Texture::create(device(), {.width = 4, .height = 4, .label = "plain"});
-    Texture array = Texture::create(device(), {.target = GL_TEXTURE_2D_ARRAY, .width = 4, .height = 4, .layers = 2, .label = "array"});
+    Texture array = Texture::create(
+        device(), {.target = GL_TEXTURE_2D_ARRAY, .width = 4, .height = 4, .layers = 2, .label = "array"});
     const Framebuffer::Attachment mixed[] = {{plain, 0, -1}, {array, 0, -1}};
     const auto target = Framebuffer::create(device(), mixed, {}, "mixed");
     ASSERT_FALSE(target);
-    EXPECT_NE(target.error().message.find("framebuffer \"mixed\" cannot be drawn to"), std::string::npos) << target.error().message;
+    EXPECT_NE(target.error().message.find("framebuffer \"mixed\" cannot be drawn to"), std::string::npos)
+        << target.error().message;
 }
 
 TEST_F(GlObjects, EveryKindIsCountedAndDeleted) {
     {
         const Buffer buffer = Buffer::create(device(), 256, "buffer");
         const Texture texture = Texture::create(device(), {.width = 2, .height = 2, .label = "texture"});
-        const Sampler sampler = Sampler::create(device(), GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR, GL_REPEAT, GL_REPEAT, 64, true);
+        const Sampler sampler =
+            Sampler::create(device(), GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR, GL_REPEAT, GL_REPEAT, 64, true);
         const VertexAttribute attributes[] = {{.location = 0, .buffer = 0, .componentCount = 3}};
         VertexArray array = VertexArray::create(device(), attributes, "array");
         array.setBuffer(0, buffer.view(), 12);

@@ -52,12 +52,14 @@ TEST_F(GlProgram, RunsOverEveryInvocation) {
     (*program)->set(0, 5u);
     for (int count : {1, 64, 65, 1000}) {
         const auto got = run(**program, count);
-        for (int i = 0; i < count; ++i) ASSERT_EQ(got[std::size_t(i)], std::uint32_t(i) * 3 + 5) << i << " of " << count;
+        for (int i = 0; i < count; ++i)
+            ASSERT_EQ(got[std::size_t(i)], std::uint32_t(i) * 3 + 5) << i << " of " << count;
     }
 }
 
 TEST_F(GlProgram, IsBuiltOncePerDefines) {
-    const auto a = device().programs().get(desc("3u")), b = device().programs().get(desc("3u")), c = device().programs().get(desc("4u"));
+    const auto a = device().programs().get(desc("3u")), b = device().programs().get(desc("3u")),
+               c = device().programs().get(desc("4u"));
     ASSERT_TRUE(a && b && c);
     EXPECT_EQ(*a, *b);
     EXPECT_NE(*a, *c);
@@ -86,9 +88,12 @@ TEST_F(GlProgram, ErrorsAfterAnIncludeNameTheIncluder) {
 
 TEST_F(GlProgram, LinkErrorsNameTheStages) {
     expectedErrorCount = -1;
-    folder.write("t/shaders/a.vert", "#version 450 core\nlayout(location = 0) out vec4 v;\nvoid main() { v = vec4(1); gl_Position = v; }\n");
-    folder.write("t/shaders/a.frag", "#version 450 core\nlayout(location = 0) in mat4 v;\nlayout(location = 0) out vec4 c;\n"
-                                     "void main() { c = v[0]; }\n");
+    folder.write(
+        "t/shaders/a.vert",
+        "#version 450 core\nlayout(location = 0) out vec4 v;\nvoid main() { v = vec4(1); gl_Position = v; }\n");
+    folder.write("t/shaders/a.frag",
+                 "#version 450 core\nlayout(location = 0) in mat4 v;\nlayout(location = 0) out vec4 c;\n"
+                 "void main() { c = v[0]; }\n");
     const auto program = device().programs().get({{"t/a.vert", "t/a.frag"}, {}, "mismatch"});
     ASSERT_FALSE(program);
     EXPECT_EQ(program.error().message.rfind("t/a.vert + t/a.frag: does not link: ", 0), 0u) << program.error().message;
@@ -111,7 +116,8 @@ TEST_F(GlProgram, ReloadKeepsTheLastGoodVersion) {
 
     folder.write("t/shaders/f.lib.glsl", "uint f(uint i) { return broken; }\n");
     EXPECT_EQ(device().programs().reload(), 0);
-    EXPECT_TRUE(messages.contains("test program: keeps its last good version: t/f.lib.glsl:1: error")) << messages.all();
+    EXPECT_TRUE(messages.contains("test program: keeps its last good version: t/f.lib.glsl:1: error"))
+        << messages.all();
     const std::size_t messageCount = messages.lines.size();
     EXPECT_EQ(device().programs().reload(), 0);
     EXPECT_EQ(messages.lines.size(), messageCount) << "the same failure is reported once";
@@ -147,7 +153,8 @@ void main() {
     const Program& p = **program;
     Mat4 m;
     m(1, 3) = 7;
-    p.set(0, -1), p.set(1, 2u), p.set(2, 3.0f), p.set(3, Vec2{0, 4}), p.set(4, Vec3{0, 0, 5}), p.set(5, Vec4{0, 0, 0, 6}), p.set(6, m);
+    p.set(0, -1), p.set(1, 2u), p.set(2, 3.0f), p.set(3, Vec2{0, 4}), p.set(4, Vec3{0, 0, 5}),
+        p.set(5, Vec4{0, 0, 0, 6}), p.set(6, m);
     Buffer values = Buffer::create(device(), 28, "values");
     values.bindStorage(0);
     p.dispatch(1);

@@ -35,9 +35,15 @@ TEST_F(GlTimer, NamesPassesInOrderAndSumsTheSameName) {
     Texture t = Texture::create(device(), {.format = GL_RGBA32F, .width = 512, .height = 512, .label = "work"});
     const float value[4] = {1, 2, 3, 4};
     frames(timer, [&] {
-        { const PassScope scope(&timer, "first"); t.clear(GL_RGBA, GL_FLOAT, value); }
+        {
+            const PassScope scope(&timer, "first");
+            t.clear(GL_RGBA, GL_FLOAT, value);
+        }
         { const PassScope scope(&timer, "second"); }
-        { const PassScope scope(&timer, "first"); t.clear(GL_RGBA, GL_FLOAT, value); }
+        {
+            const PassScope scope(&timer, "first");
+            t.clear(GL_RGBA, GL_FLOAT, value);
+        }
     });
     ASSERT_EQ(timer.passes().size(), 2u);
     EXPECT_EQ(timer.passes()[0].name, "first");
@@ -71,11 +77,11 @@ TEST_F(GlTimer, OffMeasuresNothingAndScopesNeedNoTimer) {
 }
 
 TEST_F(GlTimer, QueriesThatArriveLateCostFramesNotWaiting) {
-    device().state().info.software = false;   // take the path of a GPU; every driver answers timestamp queries
+    device().state().info.software = false;  // take the path of a GPU; every driver answers timestamp queries
     EXPECT_STREQ(FrameTimer::method(device()), "GL timer queries");
     FrameTimer timer(device());
     timer.setEnabled(true);
-    for (int i = 0; i < 100; ++i) {   // nobody waits between frames: the ring may run full
+    for (int i = 0; i < 100; ++i) {  // nobody waits between frames: the ring may run full
         timer.beginFrame();
         {
             const PassScope outer(&timer, "outer");

@@ -60,7 +60,8 @@ TEST(GlWindow, DrawsAndShares) {
     if (!screen.ok()) GTEST_SKIP() << "Xvfb is not installed";
     test::Messages messages;
     for (bool visible : {false, true}) {
-        auto window = Window::open(200, 100, "test", visible, {.device = "auto", .log = messages.sink(), .debug = true, .shaderDir = ""});
+        auto window = Window::open(200, 100, "test", visible,
+                                   {.device = "auto", .log = messages.sink(), .debug = true, .shaderDir = ""});
         ASSERT_TRUE(window) << window.error().message;
         Device& device = (*window)->device();
         EXPECT_EQ(device.info().name, "window");
@@ -72,7 +73,7 @@ TEST(GlWindow, DrawsAndShares) {
         glClear(GL_COLOR_BUFFER_BIT);
         std::uint8_t pixel[4] = {};
         glReadBuffer(GL_BACK);
-        if (visible) {   // hidden windows own no pixels
+        if (visible) {  // hidden windows own no pixels
             glReadPixels(100, 50, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, pixel);
             EXPECT_EQ(int(pixel[1]), 255);
             EXPECT_EQ(int(pixel[0]), 0);

@@ -38,7 +38,8 @@ protected:
     void SetUp() override { open(""); }
     void open(const std::string& shaderDir) {
         device_.reset();
-        auto made = gl::Device::create({.device = "auto", .log = messages.sink(), .debug = true, .shaderDir = shaderDir});
+        auto made =
+            gl::Device::create({.device = "auto", .log = messages.sink(), .debug = true, .shaderDir = shaderDir});
         ASSERT_TRUE(made) << made.error().message;
         device_ = *std::move(made);
     }
@@ -54,7 +55,7 @@ protected:
     }
     gl::Device& device() { return *device_; }
 
-    Messages messages;   // before the device: it logs until it is gone
+    Messages messages;  // before the device: it logs until it is gone
     int expectedErrorCount = 0;
     std::unique_ptr<gl::Device> device_;
 };

@@ -1,5 +1,5 @@
-// Move-only owners of GL objects, made and changed with direct state access. GL enums are passed as std::uint32_t with GL's values,
-// so that this header needs no GL header.
+// Move-only owners of GL objects, made and changed with direct state access. GL enums are passed as std::uint32_t with
+// GL's values, so that this header needs no GL header.
 #pragma once
 
 #include <cstddef>
@@ -18,9 +18,9 @@ using Enum = std::uint32_t;
 
 // Somebody's texture, not owned: how a technique is given its inputs and outputs.
 struct TextureView {
-    std::uint32_t name = 0;      // GL texture name, 0 for none
-    Enum target = 0x0DE1;        // GL_TEXTURE_2D
-    Enum format = 0;             // sized internal format
+    std::uint32_t name = 0;  // GL texture name, 0 for none
+    Enum target = 0x0DE1;    // GL_TEXTURE_2D
+    Enum format = 0;         // sized internal format
     int width = 0, height = 0, layers = 1, levels = 1;
     explicit operator bool() const { return name != 0; }
 };
@@ -30,10 +30,10 @@ struct BufferView {
     explicit operator bool() const { return name != 0; }
 };
 
-struct ObjectLedger;   // what a device counts; outlives the device, so that an object that does too is harmless
+struct ObjectLedger;  // what a device counts; outlives the device, so that an object that does too is harmless
 
-// Common part: a name that is deleted when its owner goes. Moved-from owners are empty. Creating needs the device to be current;
-// deleting makes it current for the moment where it is not.
+// Common part: a name that is deleted when its owner goes. Moved-from owners are empty. Creating needs the device to be
+// current; deleting makes it current for the moment where it is not.
 class Object {
 public:
     Object() = default;
@@ -78,7 +78,7 @@ public:
         write(0, std::as_bytes(data));
     }
     void read(std::size_t offset, std::span<std::byte> to) const;
-    void clear(std::uint32_t value);    // every 32-bit word
+    void clear(std::uint32_t value);  // every 32-bit word
     BufferView view() const { return {name_, 0, bytes()}; }
     void bindUniform(int binding) const;
     void bindStorage(int binding) const;
@@ -88,12 +88,12 @@ private:
 };
 
 struct TextureDesc {
-    Enum target = 0x0DE1;     // GL_TEXTURE_2D, _2D_ARRAY, _3D, _CUBE_MAP, _CUBE_MAP_ARRAY
-    Enum format = 0x8058;     // GL_RGBA8
-    int width = 1, height = 1, layers = 1;   // layers: array size or depth of a 3D texture (cube arrays: 6 a cube)
-    int levels = 1;           // 0: a full mip chain
-    Enum minFilter = 0x2600, magFilter = 0x2600;   // GL_NEAREST
-    Enum wrap = 0x812F;       // GL_CLAMP_TO_EDGE
+    Enum target = 0x0DE1;                         // GL_TEXTURE_2D, _2D_ARRAY, _3D, _CUBE_MAP, _CUBE_MAP_ARRAY
+    Enum format = 0x8058;                         // GL_RGBA8
+    int width = 1, height = 1, layers = 1;        // layers: array size or depth of a 3D texture (cube arrays: 6 a cube)
+    int levels = 1;                               // 0: a full mip chain
+    Enum minFilter = 0x2600, magFilter = 0x2600;  // GL_NEAREST
+    Enum wrap = 0x812F;                           // GL_CLAMP_TO_EDGE
     std::string_view label = "";
 };
 
@@ -112,7 +112,7 @@ public:
     int width() const { return view_.width; }
     int height() const { return view_.height; }
     void bind(int unit) const;
-    void bindImage(int unit, Enum access, int level = 0) const;   // format: the texture's own; all layers
+    void bindImage(int unit, Enum access, int level = 0) const;  // format: the texture's own; all layers
 private:
     using Object::Object;
     TextureView view_;
@@ -137,11 +137,12 @@ public:
     struct Attachment {
         TextureView texture;
         int level = 0;
-        int layer = -1;      // -1: all layers (layered rendering for arrays)
+        int layer = -1;  // -1: all layers (layered rendering for arrays)
     };
     // Colour attachments in order (draw buffers set to match), and depth (may be empty).
-    static Result<Framebuffer> create(Device& device, std::span<const Attachment> colors, const Attachment& depth, std::string_view label);
-    void bind() const;       // also sets the viewport to its size
+    static Result<Framebuffer> create(Device& device, std::span<const Attachment> colors, const Attachment& depth,
+                                      std::string_view label);
+    void bind() const;  // also sets the viewport to its size
     int width() const { return width_; }
     int height() const { return height_; }
 
@@ -151,9 +152,9 @@ private:
 };
 
 struct VertexAttribute {
-    int location = 0, buffer = 0;     // index of the vertex buffer binding
+    int location = 0, buffer = 0;  // index of the vertex buffer binding
     int componentCount = 4;
-    Enum type = 0x1406;               // GL_FLOAT
+    Enum type = 0x1406;  // GL_FLOAT
     bool normalized = false, integer = false;
     int offset = 0;
 };

@@ -15,8 +15,8 @@ namespace shoal::gl {
 
 // Names are "module/file.stage": "frame/shade.comp". The stage is the ending: vert, frag, comp, geom.
 struct ProgramDesc {
-    std::vector<std::string> stages;                             // {"frame/gbuffer.vert", "frame/gbuffer.frag"} or one .comp
-    std::vector<std::pair<std::string, std::string>> defines;    // put after #version
+    std::vector<std::string> stages;  // {"frame/gbuffer.vert", "frame/gbuffer.frag"} or one .comp
+    std::vector<std::pair<std::string, std::string>> defines;  // put after #version
     std::string label;
 };
 
@@ -46,10 +46,11 @@ private:
 
 class ProgramCache {
 public:
-    // The program of `desc`, built at first asking. The error has the compiler's text with "frame/x.lib.glsl:12:" in front.
+    // The program of `desc`, built at first asking. The error has the compiler's text with "frame/x.lib.glsl:12:" in
+    // front.
     Result<const Program*> get(const ProgramDesc& desc);
-    // Rebuilds what was built from files that changed in SHOAL_SHADER_DIR; a program that fails keeps its last good version and its
-    // error is logged. Returns how many were rebuilt.
+    // Rebuilds what was built from files that changed in SHOAL_SHADER_DIR; a program that fails keeps its last good
+    // version and its error is logged. Returns how many were rebuilt.
     int reload();
     std::size_t size() const;
 
@@ -61,9 +62,9 @@ private:
     std::unique_ptr<State> state_;
 };
 
-// The source after flattening, for tests and tools: text with #line directives, and the file names that their numbers stand for
-// (line L of file F is "#line F*100000+L F": some compilers lose the second number). A file is included once. `shaderDir` is laid
-// out as src/ is; what it lacks is taken from the embedded texts.
+// The source after flattening, for tests and tools: text with #line directives, and the file names that their numbers
+// stand for (line L of file F is "#line F*100000+L F": some compilers lose the second number). A file is included once.
+// `shaderDir` is laid out as src/ is; what it lacks is taken from the embedded texts.
 struct FlatSource {
     std::string text;
     std::vector<std::string> files;

@@ -6,9 +6,10 @@
 
 namespace shoal::gl {
 
-struct EmbeddedShader;   // src/gl/embedded_shader.h
+struct EmbeddedShader;  // src/gl/embedded_shader.h
 
-// Adds a module's table (it must live as long as the process). Adding the same table again does nothing. From any thread.
+// Adds a module's table (it must live as long as the process). Adding the same table again does nothing. From any
+// thread.
 void registerShaders(std::span<const EmbeddedShader> shaders);
 
 }  // namespace shoal::gl

@@ -1,5 +1,5 @@
-// Time per pass. On a GPU: timer queries, read some frames later without stalling. On llvmpipe, where GL_TIME_ELAPSED means nothing:
-// the wall clock around glFinish, only while timing is on (it costs overlap).
+// Time per pass. On a GPU: timer queries, read some frames later without stalling. On llvmpipe, where GL_TIME_ELAPSED
+// means nothing: the wall clock around glFinish, only while timing is on (it costs overlap).
 #pragma once
 
 #include <memory>

@@ -28,7 +28,8 @@ std::size_t count(const std::string& text, const std::string& part) {
 
 TEST(ShaderSource, IncludesAFileOnceAndKeepsItsPlace) {
     const ShaderFolder folder;
-    folder.write("t/shaders/a.comp", "#version 450 core\n#include \"t/b.lib.glsl\"\n  #  include \"t/c.lib.glsl\" // twice\r\nlast\n");
+    folder.write("t/shaders/a.comp",
+                 "#version 450 core\n#include \"t/b.lib.glsl\"\n  #  include \"t/c.lib.glsl\" // twice\r\nlast\n");
     folder.write("t/shaders/b.lib.glsl", "#include \"t/c.lib.glsl\"\nbee\n");
     folder.write("t/shaders/c.lib.glsl", "sea\n");
     const auto flat = flattenShader("t/a.comp", folder.path());
@@ -84,7 +85,8 @@ TEST(ShaderSource, FindsFoldersAtAnyDepthAndLongNames) {
 }
 
 TEST(ShaderSource, RegistersTablesOnceAndPrefersTheFolder) {
-    static const EmbeddedShader table[] = {{"reg/one.comp", "embedded one", 12}, {"reg/two.lib.glsl", "embedded two", 12}};
+    static const EmbeddedShader table[] = {{"reg/one.comp", "embedded one", 12},
+                                           {"reg/two.lib.glsl", "embedded two", 12}};
     registerShaders(table);
     registerShaders(table);
     registerShaders({});
@@ -132,8 +134,9 @@ TEST(ShaderSource, AFolderThatIsNoneIsBadInputBeforeAnyDevice) {
     const auto device = Device::create({.device = "auto", .log = {}, .shaderDir = "/nonexistent/shaders"});
     ASSERT_FALSE(device);
     EXPECT_EQ(device.error().kind, ErrorKind::badInput);
-    EXPECT_EQ(device.error().message, "DeviceOptions::shaderDir: \"/nonexistent/shaders\" is not a folder; expected one that is laid "
-                                      "out as shoal's src/");
+    EXPECT_EQ(device.error().message,
+              "DeviceOptions::shaderDir: \"/nonexistent/shaders\" is not a folder; expected one that is laid "
+              "out as shoal's src/");
 }
 
 TEST(Renderer, SoftwareIsKnownByItsName) {
