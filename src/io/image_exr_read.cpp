@@ -28,11 +28,11 @@ constexpr std::uint64_t kSmallPicture = 64u << 20;  // bytes of float pixels tha
 constexpr std::uint64_t kLargestRatio = 16384;      // float bytes a byte of file
 constexpr std::uint64_t kLargestPicture = std::uint64_t(8) << 30;
 
+// Not "memory mapped" in OpenEXR's sense: it would then copy uncompressed lines straight from our bytes, as many as a
+// line has, even where a damaged chunk says it holds fewer (3.1.5).
 class MemoryStream final : public Imf::IStream {
 public:
     MemoryStream(Bytes bytes, const std::string& name) : IStream(name.c_str()), bytes_(bytes) {}
-    bool isMemoryMapped() const override { return true; }
-    char* readMemoryMapped(int count) override { return const_cast<char*>(take(count)); }
     bool read(char to[], int count) override {
         std::memcpy(to, take(count), std::size_t(count));
         return at_ < bytes_.size();
