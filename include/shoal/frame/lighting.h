@@ -22,6 +22,7 @@ struct LightingParams {
     std::string background = "environment";   // "environment", "color", "transparent"
     Vec3 backgroundColor{0.05f, 0.05f, 0.05f};
     float backgroundBlur = 0;          // 0 sharp .. 1 diffuse
+    bool sunDisc = true;               // the sun itself in the environment behind everything, where there is one
 };
 template <class Params, class Visitor>
     requires std::is_same_v<std::remove_const_t<Params>, LightingParams>
@@ -33,6 +34,7 @@ void visit(Params& p, Visitor&& v) {
     v(p.background, Field{"background", "", -1e30, 1e30, "what is behind everything", {"environment", "color", "transparent"}});
     v(p.backgroundColor, Field{"backgroundColor", "W/(m2 sr)", 0, 1e6, "radiance behind everything when background is color"});
     v(p.backgroundBlur, Field{"backgroundBlur", "", 0, 1, "blurs the environment seen behind everything, not its light"});
+    v(p.sunDisc, Field{"sunDisc", "", -1e30, 1e30, "draws the sun's disc into the environment behind everything"});
 }
 
 // What is lit by. Pointers may be null.

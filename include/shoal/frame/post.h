@@ -60,8 +60,8 @@ private:
     std::unique_ptr<State> state_;
 };
 
-// Sample offsets for antialiasing, pixels in [-0.5, 0.5]: point `index` of a pattern of `count` (a scrambled (0,2)-sequence, or Halton
-// for the temporal pattern), so that `count` samples cover the pixel evenly.
+// Sample offsets for antialiasing, pixels in [-0.5, 0.5]: point `index` of `count`, every one of `count` rows and columns once (a shifted
+// Hammersley set; their mean is the pixel centre). count 0: an endless sequence for temporal antialiasing (Halton 2, 3).
 Vec2 samplePattern(int index, int count);
 
 // Reads a texture into an Image with row 0 on top. Supported formats: RGBA32F, RGBA16F, R11F_G11F_B10F, RG16F, RG16, R32F, R8, RGBA8, R32UI.

@@ -1,0 +1,71 @@
+// From exposed linear Rec.709 radiance to display values in [0, 1]. Compiled by C++ too.
+// Sources:
+//   AgX, T. Sobotka, github.com/sobotka/AgX: the inset matrix, the range of 16.5 stops around middle grey and the contrast curve
+//   (a sigmoid with slope 2 and powers 3 and 3.25 about (20/33, 1/2)) of its OpenColorIO configuration.
+//   Its display is a pure power of 2.2, so what leaves the outset matrix is a display value already.
+//   IEC 61966-2-1 for sRGB.
+#ifndef SHOAL_FRAME_TONEMAP_LIB_GLSL
+#define SHOAL_FRAME_TONEMAP_LIB_GLSL
+
+#ifndef SHOAL_FUNCTION
+#define SHOAL_FUNCTION
+#endif
+
+const int kCurveNone = 0;
+const int kCurvePlain = 1;
+const int kCurveAgx = 2;
+
+SHOAL_FUNCTION float srgbEncode(float x) {
+    return x <= 0.0031308f ? 12.92f * x : 1.055f * pow(x, 1.0f / 2.4f) - 0.055f;
+}
+SHOAL_FUNCTION vec3 srgbEncode(vec3 c) { return vec3(srgbEncode(c.x), srgbEncode(c.y), srgbEncode(c.z)); }
+
+// One channel of the contrast curve: x is log radiance over the range, in [0, 1].
+SHOAL_FUNCTION float agxContrast(float x) {
+    const float pivot = 20.0f / 33.0f;
+    const float toeScale = 59.507875f;          // ((2 p)^3 / (1/2)^3 - 1) / p^3 for p = 20/33
+    const float shoulderScale = 69.862789f;     // the same with 3.25 and 13/33
+    float t = x - pivot;
+    bool toe = t < 0.0f;
+    float power = toe ? 3.0f : 3.25f;
+    float scale = toe ? toeScale : shoulderScale;
+    float bend = 1.0f + scale * pow(max(abs(t), 1e-6f), power);
+    return 0.5f + 2.0f * t * pow(bend, -1.0f / power);
+}
+
+SHOAL_FUNCTION vec3 agx(vec3 radiance) {
+    const mat3 inset = mat3(0.842479062253094f, 0.0423282422610123f, 0.0423756549057051f,
+                            0.0784335999999992f, 0.878468636469772f, 0.0784336f,
+                            0.0792237451477643f, 0.0791661274605434f, 0.879142973793104f);
+    const mat3 outset = mat3(1.19687900512017f, -0.0528968517574562f, -0.0529716355144438f,
+                             -0.0980208811401368f, 1.15190312990417f, -0.0980434501171241f,
+                             -0.0990297440797205f, -0.0989611768448433f, 1.15107367264116f);
+    const float least = -12.473931f;   // log2(0.18) - 10
+    const float range = 16.5f;
+    vec3 stops = (log2(max(inset * radiance, vec3(1e-10f))) - least) / range;
+    vec3 x = clamp(stops, vec3(0.0f), vec3(1.0f));
+    return outset * vec3(agxContrast(x.x), agxContrast(x.y), agxContrast(x.z));
+}
+
+// curve: kCurve... . Negative and over-bright results are clipped.
+SHOAL_FUNCTION vec3 displayFromRadiance(vec3 radiance, int curve) {
+    vec3 c = max(radiance, vec3(0.0f));
+    if (curve == kCurveAgx) c = agx(c);
+    else if (curve == kCurvePlain) c = srgbEncode(min(c, vec3(1.0f)));
+    return clamp(c, vec3(0.0f), vec3(1.0f));
+}
+
+// Saturation and contrast of display values; contrast turns about middle grey.
+SHOAL_FUNCTION vec3 applyLook(vec3 display, float saturation, float contrast) {
+    float grey = dot(display, vec3(0.2126f, 0.7152f, 0.0722f));
+    vec3 c = vec3(grey) + (display - vec3(grey)) * saturation;
+    c = (c - 0.46f) * contrast + 0.46f;
+    return clamp(c, vec3(0.0f), vec3(1.0f));
+}
+
+// Noise in [0, 1) of a pixel with little energy in low frequencies: interleaved gradient noise [Jimenez 2014].
+SHOAL_FUNCTION float interleavedNoise(vec2 pixel) {
+    return fract(52.9829189f * fract(0.06711056f * pixel.x + 0.00583715f * pixel.y));
+}
+
+#endif
