@@ -1,0 +1,173 @@
+#include "scene/shapes/surfaces.h"
+
+#include <array>
+#include <vector>
+
+#include <shoal/core/parallel.h>
+
+#include "scene/shapes/noise.h"
+
+namespace shoal::scene::shapes {
+namespace {
+
+struct Texel {
+    Vec3 albedo;          // linear
+    float height = 0;     // metres
+    float roughness = 1;
+};
+
+std::uint8_t byteOf(float unit) { return std::uint8_t(std::clamp(unit, 0.0f, 1.0f) * 255 + 0.5f); }
+
+std::uint8_t srgbByte(float linear) {
+    static const std::array<std::uint8_t, 4096> table = [] {
+        std::array<std::uint8_t, 4096> t{};
+        for (std::size_t i = 0; i < t.size(); ++i) t[i] = byteOf(srgbFromLinear((float(i) + 0.5f) / 4096));
+        return t;
+    }();
+    return table[std::size_t(std::clamp(linear, 0.0f, 1.0f) * 4095)];
+}
+
+// texelAt(u, v), u right and v down in [0, 1).
+template <class TexelAt>
+Surface makeSurface(int size, float metres, const TexelAt& texelAt) {
+    const std::size_t side = std::size_t(size);
+    std::vector<float> heights(side * side);
+    Surface out{ByteImage(size, size), ByteImage(size, size), ByteImage(size, size), metres};
+    parallelFor(side, 16, [&](std::size_t y) {
+        for (std::size_t x = 0; x < side; ++x) {
+            const Texel t = texelAt((float(x) + 0.5f) / float(size), (float(y) + 0.5f) / float(size));
+            heights[y * side + x] = t.height;
+            std::uint8_t* color = &out.color.pixels[4 * (y * side + x)];
+            color[0] = srgbByte(t.albedo.x), color[1] = srgbByte(t.albedo.y), color[2] = srgbByte(t.albedo.z), color[3] = 255;
+            std::uint8_t* roughness = &out.roughness.pixels[4 * (y * side + x)];
+            roughness[0] = 255, roughness[1] = byteOf(t.roughness), roughness[2] = 0, roughness[3] = 255;
+        }
+    });
+    const float perMetre = float(size) / metres / 2;
+    parallelFor(side, 16, [&](std::size_t y) {
+        const std::size_t above = (y + side - 1) % side, below = (y + 1) % side;
+        for (std::size_t x = 0; x < side; ++x) {
+            const std::size_t left = (x + side - 1) % side, right = (x + 1) % side;
+            const Vec3 n = normalize(Vec3{(heights[y * side + left] - heights[y * side + right]) * perMetre,
+                                          (heights[below * side + x] - heights[above * side + x]) * perMetre, 1});
+            std::uint8_t* normal = &out.normal.pixels[4 * (y * side + x)];
+            normal[0] = byteOf(n.x * 0.5f + 0.5f), normal[1] = byteOf(n.y * 0.5f + 0.5f);
+            normal[2] = byteOf(n.z * 0.5f + 0.5f), normal[3] = 255;
+        }
+    });
+    return out;
+}
+
+}  // namespace
+
+Surface makeWood(std::uint32_t seed) {
+    return makeSurface(512, 1.2f, [&](float u, float v) {
+        const float sway = 0.6f * noise(u * 3, v * 4, seed, 3, 4);
+        // Growth rings cut lengthwise: bands across v that wander along u.
+        const float rings = 0.5f + 0.5f * std::sin(2 * kPi * (v * 14 + sway + 0.35f * noise(u * 2, v * 14, seed + 1, 2, 14)));
+        const float fibre = fractal(u * 6, v * 96, 2, seed + 2, 6, 96);
+        const float crack = smoothstep(0.52f, 0.75f, noise(u * 5, v * 70, seed + 5, 5, 70));
+        const float stain = fractal(u * 3, v * 5, 3, seed + 7, 3, 5);
+        const float value = 0.62f + 0.16f * rings + 0.15f * fibre + 0.16f * stain;
+        const Vec3 light{0.62f, 0.47f, 0.33f}, dark{0.26f, 0.18f, 0.12f};
+        Texel t;
+        t.albedo = lerp(dark, light, std::clamp(value, 0.0f, 1.2f)) * (1 - 0.65f * crack);
+        t.height = 0.0006f * rings + 0.0007f * fibre - 0.0022f * crack;
+        t.roughness = std::clamp(0.72f + 0.12f * fibre - 0.1f * stain + 0.2f * crack, 0.4f, 1.0f);
+        return t;
+    });
+}
+
+Surface makeStone(std::uint32_t seed) {
+    return makeSurface(512, 1.6f, [&](float u, float v) {
+        const float blotch = fractal(u * 3, v * 3, 4, seed, 3, 3);
+        const float grain = noise(u * 128, v * 128, seed + 9, 128, 128);
+        const float chisel = fractal(u * 12, v * 12, 3, seed + 11, 12, 12);
+        const Cell pit = cellNoise(u * 24, v * 24, seed + 17, 24, 24);
+        const float hole = (pit.id & 7) < 3 ? 1 - smoothstep(0.06f, 0.2f, pit.distance) : 0;
+        const float vein = 1 - smoothstep(0.0f, 0.05f, std::abs(fractal(u * 2, v * 2, 3, seed + 21, 2, 2) - 0.05f));
+        const float value = 0.52f + 0.12f * blotch + 0.05f * grain + 0.06f * chisel - 0.16f * hole - 0.05f * vein;
+        Texel t;
+        t.albedo = Vec3{1.0f, 0.965f, 0.9f + 0.05f * blotch} * std::clamp(value, 0.05f, 0.9f);
+        t.height = 0.006f * chisel + 0.0008f * grain - 0.005f * hole + 0.006f * blotch;
+        t.roughness = std::clamp(0.8f + 0.1f * grain + 0.1f * hole, 0.5f, 1.0f);
+        return t;
+    });
+}
+
+Surface makeConcrete(std::uint32_t seed) {
+    return makeSurface(512, 3.0f, [&](float u, float v) {
+        const float cloud = fractal(u * 3, v * 3, 5, seed, 3, 3);
+        const float grain = noise(u * 170, v * 170, seed + 9, 170, 170);
+        const Cell pore = cellNoise(u * 48, v * 48, seed + 17, 48, 48);
+        const float hole = (pore.id & 15) < 3 ? 1 - smoothstep(0.05f, 0.14f, pore.distance) : 0;
+        const float wander = fractal(u * 2, v * 2, 5, seed + 31, 2, 2);
+        const float crack = (1 - smoothstep(0.0f, 0.008f, std::abs(wander))) * smoothstep(0.05f, 0.3f, cloud);
+        const float stain = smoothstep(0.1f, 0.6f, fractal(u * 2, v * 2, 3, seed + 41, 2, 2));
+        const float value = 0.44f + 0.06f * cloud + 0.025f * grain - 0.12f * hole - 0.16f * crack - 0.08f * stain;
+        Texel t;
+        t.albedo = Vec3{1.0f, 0.985f, 0.95f} * std::clamp(value, 0.05f, 0.9f);
+        t.height = 0.003f * cloud + 0.0006f * grain - 0.004f * hole - 0.004f * crack;
+        t.roughness = std::clamp(0.72f + 0.12f * cloud + 0.1f * grain - 0.22f * stain, 0.3f, 1.0f);
+        return t;
+    });
+}
+
+Surface makeSand(std::uint32_t seed) {
+    return makeSurface(512, 2.4f, [&](float u, float v) {
+        const float bend = 0.35f * noise(u * 3, v * 3, seed, 3, 3) + 0.12f * noise(u * 9, v * 9, seed + 1, 9, 9);
+        const float phase = v * 14 + bend * 3;
+        const float wave = std::sin(2 * kPi * phase);
+        const float ripple = (0.5f + 0.5f * wave) * (0.5f + 0.5f * wave) * (0.7f + 0.5f * noise(u * 5, v * 5, seed + 3, 5, 5));
+        const float grain = noise(u * 200, v * 200, seed + 5, 200, 200);
+        const float patch = fractal(u * 4, v * 4, 4, seed + 8, 4, 4);
+        const Cell pebble = cellNoise(u * 40, v * 40, seed + 13, 40, 40);
+        const float stone = (pebble.id & 63) < 2 ? 1 - smoothstep(0.12f, 0.22f, pebble.distance) : 0;
+        Texel t;
+        t.albedo = lerp(Vec3{0.60f, 0.50f, 0.37f} * (0.92f + 0.10f * ripple + 0.10f * grain + 0.09f * patch),
+                        Vec3{0.42f, 0.38f, 0.33f}, stone * 0.8f);
+        t.height = 0.011f * ripple + 0.0012f * grain + 0.006f * patch + 0.004f * stone;
+        t.roughness = 0.92f;
+        return t;
+    });
+}
+
+Surface makeGrit(std::uint32_t seed) {
+    return makeSurface(512, 3.0f, [&](float u, float v) {
+        const float patch = fractal(u * 4, v * 4, 5, seed, 4, 4);
+        const float fine = noise(u * 150, v * 150, seed + 7, 150, 150);
+        const Cell lump = cellNoise(u * 28, v * 28, seed + 3, 28, 28);
+        const float bump = 1 - smoothstep(0.1f, 0.55f, lump.distance);
+        const float value = 0.74f + 0.13f * patch + 0.12f * fine + 0.1f * (bump - 0.4f) * (unitOf(lump.id) - 0.2f);
+        Texel t;
+        t.albedo = Vec3{1, 1, 1} * std::clamp(value, 0.1f, 1.0f);
+        t.height = 0.012f * bump * unitOf(lump.id) + 0.002f * fine + 0.012f * patch;
+        t.roughness = 0.95f;
+        return t;
+    });
+}
+
+Surface makeTiles(std::uint32_t seed, float tileSize, int count) {
+    const int size = count >= 6 ? 512 : 256;
+    const float joint = std::clamp(0.004f / tileSize, 0.02f, 0.06f);   // half its width, in tiles
+    return makeSurface(size, tileSize * float(count), [&](float u, float v) {
+        const float x = u * float(count), y = v * float(count);
+        const float fx = x - std::floor(x), fy = y - std::floor(y);
+        const std::uint32_t id = latticeHash(std::uint32_t(x), std::uint32_t(y), seed);
+        const float edge = std::min(std::min(fx, 1 - fx), std::min(fy, 1 - fy));
+        const float body = smoothstep(joint * 0.8f, joint * 1.6f, edge);
+        const float glaze = fractal(u * 8, v * 8, 3, seed + 3, 8, 8), dirt = fractal(u * 5, v * 5, 4, seed + 5, 5, 5);
+        const float shade = 0.86f + 0.12f * (unitOf(id) - 0.5f) + 0.03f * glaze;
+        const float hue = unitOf(latticeHash(id, 1, seed)) - 0.5f;
+        const Vec3 tile = Vec3{1 + 0.05f * hue, 1, 1 - 0.05f * hue} * shade, grout = Vec3{0.42f, 0.42f, 0.40f} * (1 + 0.2f * dirt);
+        // Each tile lies a little askew, which breaks up reflections as on a real wall.
+        const float tiltX = (unitOf(latticeHash(id, 2, seed)) - 0.5f) * 0.02f, tiltY = (unitOf(latticeHash(id, 3, seed)) - 0.5f) * 0.02f;
+        Texel t;
+        t.albedo = lerp(grout, tile, body);
+        t.height = tileSize * ((fx - 0.5f) * tiltX + (fy - 0.5f) * tiltY) + 0.0025f * body + 0.0003f * glaze;
+        t.roughness = mix(0.9f, 0.16f + 0.06f * std::abs(glaze), body);
+        return t;
+    });
+}
+
+}  // namespace shoal::scene::shapes

@@ -1,0 +1,26 @@
+// Small tiling textures made by noise: colour, normal map, roughness.
+#pragma once
+
+#include <cstdint>
+
+#include <shoal/core/image.h>
+#include <shoal/core/math.h>
+
+namespace shoal::scene::shapes {
+
+struct Surface {
+    ByteImage color;       // sRGB
+    ByteImage normal;      // tangent space, +y up the picture (glTF)
+    ByteImage roughness;   // glTF's metallic-roughness: G roughness, B metallic (0)
+    float metres = 1;      // what one repetition covers
+};
+
+Surface makeWood(std::uint32_t seed);       // grain along u
+Surface makeStone(std::uint32_t seed);      // hewn, light; the tint comes from vertex colours
+Surface makeConcrete(std::uint32_t seed);
+Surface makeSand(std::uint32_t seed);       // with ripples
+Surface makeGrit(std::uint32_t seed);       // pebbly ground: grass, soil and rock from afar
+// Glazed tiles with joints, `count` a side; tileSize in metres.
+Surface makeTiles(std::uint32_t seed, float tileSize, int count);
+
+}  // namespace shoal::scene::shapes
