@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "frame/fullscreen.h"
 #include "frame/geometry_state.h"
 
 namespace shoal::frame {
@@ -111,6 +112,7 @@ Geometry& Geometry::operator=(Geometry&&) noexcept = default;
 Geometry::~Geometry() = default;
 
 Result<Geometry> Geometry::create(gl::Device& device) {
+    registerFrameShaders();
     SHOAL_TRY_ASSIGN(MaterialStore materials, MaterialStore::create(device));
     SHOAL_TRY_ASSIGN(Skinner skinner, Skinner::create(device));
     auto state = std::make_unique<State>(device, std::move(materials), std::move(skinner));

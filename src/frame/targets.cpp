@@ -5,6 +5,7 @@
 #include <string>
 
 #include "frame/bindings.shared.h"
+#include "frame/fullscreen.h"
 
 namespace shoal::frame {
 namespace {
@@ -25,6 +26,7 @@ gl::Texture makeTarget(gl::Device& device, gl::Enum format, int width, int heigh
 }  // namespace
 
 Result<Targets> Targets::create(gl::Device& device, int width, int height) {
+    registerFrameShaders();
     Targets targets;
     targets.device_ = &device;
     SHOAL_TRY_ASSIGN(targets.linearize_, device.programs().get({{"frame/linearize_depth.comp"}, {}, "linearize depth"}));

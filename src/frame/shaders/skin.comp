@@ -47,9 +47,9 @@ void main() {
     }
 
     if (chunk.influence != ~0u) {
-        uvec4 packed = influences[chunk.influence + v];
-        uvec4 joints = uvec4(packed.x & 0xffffu, packed.x >> 16, packed.y & 0xffffu, packed.y >> 16);
-        vec4 weights = vec4(unpackUnorm2x16(packed.z), unpackUnorm2x16(packed.w));
+        uvec4 stored = influences[chunk.influence + v];
+        uvec4 joints = uvec4(stored.x & 0xffffu, stored.x >> 16, stored.y & 0xffffu, stored.y >> 16);
+        vec4 weights = vec4(unpackUnorm2x16(stored.z), unpackUnorm2x16(stored.w));
         vec4 rowX = vec4(0.0), rowY = vec4(0.0), rowZ = vec4(0.0);
         for (int k = 0; k < 4; ++k) {
             uint row = chunk.jointRow + 3u * joints[k];
