@@ -49,6 +49,7 @@ void addRender(CLI::App& app, RenderOptions& o) {
         ->expected(1);
     verb->add_option("--seed", o.seed, "seed of every random choice; default: the scene's");
     verb->add_option("--device", o.device, kDeviceHelp);
+    verb->add_option("--threads", o.threads, "threads of our own loops, 0 for all cores; the picture is the same for any")->check(CLI::Range(0, 1024));
     verb->add_option("--quality", o.quality, "of .jpg, 1 .. 100")->check(CLI::Range(1, 100));
     verb->add_option("--up", o.up, "up axis of a bare model: y or z; default: as its file says");
     verb->add_option("--scale", o.scale, "metres a unit of a bare model stands for; default: as its file says");

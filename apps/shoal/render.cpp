@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include <shoal/core/parallel.h>
 #include <shoal/core/progress.h>
 #include <shoal/gl/device.h>
 #include <shoal/pipeline/pipeline.h>
@@ -52,6 +53,7 @@ bool isFilm(const std::string& output) {
 
 Result<void> run(const RenderOptions& o) {
     const auto start = std::chrono::steady_clock::now();
+    const ThreadLimit threads(o.threads);
     SHOAL_TRY_ASSIGN(const std::vector<scene::Override> overrides, overridesOf(o));
     pipeline::OutputOptions output;
     SHOAL_TRY_ASSIGN(output.aovs, pipeline::parseAovList(o.aovs));

@@ -24,7 +24,7 @@ struct RenderOptions {
     std::optional<unsigned> seed;
     std::vector<std::string> sets;
     bool transparent = false, quiet = false, debug = false;
-    int quality = 92;
+    int quality = 92, threads = 0;
     double scale = 0;
 };
 int render(const RenderOptions& options);
