@@ -20,8 +20,8 @@ public:
     ProgressBar(const ProgressBar&) = delete;
     ProgressBar& operator=(const ProgressBar&) = delete;
 
-    // Tells how far the work is; total 0: not known. Draws at most ten times a second (plain lines: every 2 s, the first after 2 s), so it
-    // may be called often; by one thread at a time.
+    // Tells how far the work is; total 0: not known. Draws at most ten times a second (plain lines: every 2 s, the
+    // first after 2 s), so it may be called often; by one thread at a time.
     void update(std::uint64_t done, std::uint64_t total);
     // Draws the last state and ends the line. The destructor does it too.
     void finish();
