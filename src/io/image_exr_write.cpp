@@ -21,6 +21,8 @@
 namespace shoal::io {
 namespace {
 
+constexpr int kZipLevel = 2;  // OpenEXR's own 4 takes 40 % longer for files 1 % smaller
+
 class MemoryStream final : public Imf::OStream {
 public:
     MemoryStream() : OStream("memory") {}
@@ -105,6 +107,7 @@ Result<std::vector<std::byte>> encodeExr(std::span<const Layer> layers, const Ex
     try {
         Imf::Header header(first.width, first.height);
         header.compression() = compressionOf(options.compression);
+        header.zipCompressionLevel() = kZipLevel;
         Imf::FrameBuffer source;
         std::deque<std::vector<Imath::half>> halves;  // kept until written
         std::set<std::string> names;
