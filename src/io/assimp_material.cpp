@@ -20,7 +20,7 @@ namespace {
 constexpr float kDefaultRoughness = 0.8f;
 
 class MaterialReader {
- public:
+public:
     MaterialReader(const aiScene& scene, const std::filesystem::path& path, const LogSink& log, Model& model)
         : scene_(scene), path_(path), log_(log), model_(model) {}
     void readAll() {
@@ -28,7 +28,7 @@ class MaterialReader {
         decodeImages();
     }
 
- private:
+private:
     void warn(const std::string& message) const {
         if (log_) log_(LogLevel::warning, fmt::format("{}: {}", path_.string(), message));
     }
@@ -57,7 +57,8 @@ TextureUse MaterialReader::texture(const aiMaterial& source, std::initializer_li
         aiString reference;
         unsigned uvSet = 0;
         aiTextureMapMode modes[3] = {aiTextureMapMode_Wrap, aiTextureMapMode_Wrap, aiTextureMapMode_Wrap};
-        if (source.GetTexture(type, 0, &reference, nullptr, &uvSet, nullptr, nullptr, modes) != aiReturn_SUCCESS) continue;
+        if (source.GetTexture(type, 0, &reference, nullptr, &uvSet, nullptr, nullptr, modes) != aiReturn_SUCCESS)
+            continue;
         if (reference.length == 0) continue;
         const auto wrap = [](aiTextureMapMode mode) {
             return mode == aiTextureMapMode_Mirror  ? Wrap::mirror
@@ -92,17 +93,19 @@ void MaterialReader::readMaterial(const aiMaterial& source) {
     if (material.baseColorTexture.image >= 0 && color.r + color.g + color.b == 0) color = aiColor4D(1, 1, 1, 1);
     float opacity = 1;
     source.Get(AI_MATKEY_OPACITY, opacity);
-    if (!(opacity > 0)) opacity = 1;   // FBX writers disagree on the sense of 0; nobody means an invisible surface
+    if (!(opacity > 0)) opacity = 1;  // FBX writers disagree on the sense of 0; nobody means an invisible surface
     const auto unitRange = [](float v) { return std::isfinite(v) ? std::clamp(v, 0.0f, 1.0f) : 1.0f; };
     material.baseColor = {unitRange(color.r), unitRange(color.g), unitRange(color.b), unitRange(opacity)};
     if (material.baseColor.w < 1) material.alphaMode = AlphaMode::blend;
 
     float value = 0;
     material.metallic = source.Get(AI_MATKEY_METALLIC_FACTOR, value) == aiReturn_SUCCESS ? unitRange(value) : 0.0f;
-    if (source.Get(AI_MATKEY_ROUGHNESS_FACTOR, value) == aiReturn_SUCCESS) material.roughness = unitRange(value);
+    if (source.Get(AI_MATKEY_ROUGHNESS_FACTOR, value) == aiReturn_SUCCESS)
+        material.roughness = unitRange(value);
     else if (source.Get(AI_MATKEY_SHININESS, value) == aiReturn_SUCCESS && value > 0)
         material.roughness = roughnessOf(value, obj);
-    else material.roughness = kDefaultRoughness;
+    else
+        material.roughness = kDefaultRoughness;
     aiColor3D emission(0, 0, 0);
     source.Get(AI_MATKEY_COLOR_EMISSIVE, emission);
     material.emission = max(Vec3{emission.r, emission.g, emission.b}, {0, 0, 0});
@@ -131,8 +134,10 @@ void MaterialReader::decodeImages() {
         const std::string& reference = imageReferences_[i];
         if (const aiTexture* embedded = scene_.GetEmbeddedTexture(reference.c_str())) {
             if (embedded->mHeight == 0) {
-                decoded[i] = decodeImage({reinterpret_cast<const std::byte*>(embedded->pcData), embedded->mWidth}, reference);
-            } else if (embedded->mWidth <= unsigned(kImageSideLimit) && embedded->mHeight <= unsigned(kImageSideLimit)) {
+                decoded[i] =
+                    decodeImage({reinterpret_cast<const std::byte*>(embedded->pcData), embedded->mWidth}, reference);
+            } else if (embedded->mWidth <= unsigned(kImageSideLimit) &&
+                       embedded->mHeight <= unsigned(kImageSideLimit)) {
                 ByteImage pixels(int(embedded->mWidth), int(embedded->mHeight));
                 for (std::size_t p = 0; p < pixels.pixels.size() / 4; ++p) {
                     const aiTexel t = embedded->pcData[p];

@@ -1,6 +1,6 @@
 // OBJ, PLY, STL, FBX, Collada, 3DS and more through assimp: meshes, materials, node tree, skins and node animations.
-// Morph targets, cameras and lights of these formats are left out; materials are in assimp_material.cpp. assimp is run behind checks of the file before and of
-// the scene after; its own faults are not chased.
+// Morph targets, cameras and lights of these formats are left out; materials are in assimp_material.cpp. assimp is run
+// behind checks of the file before and of the scene after; its own faults are not chased.
 #include "io/assimp_model.h"
 
 #include <algorithm>
@@ -12,8 +12,8 @@
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
-#include <assimp/Importer.hpp>
 #include <fmt/format.h>
+#include <assimp/Importer.hpp>
 
 #include "io/assimp_parts.h"
 #include "io/gltf_parts.h"
@@ -24,9 +24,10 @@ namespace shoal::io {
 
 namespace {
 
-constexpr std::string_view kExtensions[] = {".obj", ".ply", ".stl", ".fbx", ".dae",  ".3ds", ".off",     ".x",   ".lwo",
-                                            ".blend", ".ac", ".ase", ".3mf", ".ms3d", ".b3d", ".md5mesh", ".dxf"};
-constexpr float kCreaseDegrees = 40;         // sharper edges stay edges where the file has no normals
+constexpr std::string_view kExtensions[] = {".obj", ".ply",  ".stl", ".fbx",     ".dae", ".3ds",
+                                            ".off", ".x",    ".lwo", ".blend",   ".ac",  ".ase",
+                                            ".3mf", ".ms3d", ".b3d", ".md5mesh", ".dxf"};
+constexpr float kCreaseDegrees = 40;  // sharper edges stay edges where the file has no normals
 constexpr float kCoordinateLimit = 1e18f;
 constexpr double kDefaultTicksPerSecond = 25;
 
@@ -40,7 +41,7 @@ Vec3 vec(const aiVector3D& v) { return {v.x, v.y, v.z}; }
 // ---- the scene assimp made --------------------------------------------------------------------------------------
 
 class SceneReader {
- public:
+public:
     SceneReader(const aiScene& scene, const std::filesystem::path& path, const ModelReadOptions& options)
         : scene_(scene), path_(path), options_(options) {}
 
@@ -51,7 +52,7 @@ class SceneReader {
         return std::move(model_);
     }
 
- private:
+private:
     void log(LogLevel level, const std::string& message) const {
         if (options_.log) options_.log(level, fmt::format("{}: {}", path_.string(), message));
     }
@@ -68,7 +69,7 @@ class SceneReader {
     Model model_;
     std::map<std::string, int> nodeOfName_;
     std::map<std::vector<unsigned>, int> meshOfList_;
-    std::vector<const aiNode*> sources_;   // by place in model_.nodes; null for nodes added here
+    std::vector<const aiNode*> sources_;  // by place in model_.nodes; null for nodes added here
     std::size_t bytes_ = 0;
 };
 
@@ -103,7 +104,7 @@ void SceneReader::readNodes() {
         model_.nodes.push_back(std::move(node));
         for (unsigned i = source->mNumChildren; i-- > 0;) pending.push_back({source->mChildren[i], place});
     }
-    for (std::size_t i = 0; i < sources_.size(); ++i)   // nodes added on the way have no source
+    for (std::size_t i = 0; i < sources_.size(); ++i)  // nodes added on the way have no source
         if (sources_[i]) readNodeMeshes(*sources_[i], int(i));
 }
 
@@ -112,7 +113,8 @@ void SceneReader::readNodeMeshes(const aiNode& source, int place) {
     std::vector<unsigned> rigid, skinned;
     for (unsigned i = 0; i < source.mNumMeshes; ++i) {
         const unsigned mesh = source.mMeshes[i];
-        if (mesh >= scene_.mNumMeshes) throw ReadError{fmt::format("mesh {}, but there are only {}", mesh, scene_.mNumMeshes)};
+        if (mesh >= scene_.mNumMeshes)
+            throw ReadError{fmt::format("mesh {}, but there are only {}", mesh, scene_.mNumMeshes)};
         (scene_.mMeshes[mesh]->mNumBones ? skinned : rigid).push_back(mesh);
     }
     const std::string name = text(source.mName);
@@ -162,9 +164,10 @@ Primitive SceneReader::readPrimitive(unsigned index, Skin* skin) {
     out.positions.reserve(n);
     for (std::size_t i = 0; i < n; ++i) {
         const Vec3 p = vec(source.mVertices[i]);
-        if (!(std::abs(p.x) <= kCoordinateLimit && std::abs(p.y) <= kCoordinateLimit && std::abs(p.z) <= kCoordinateLimit))
-            throw ReadError{fmt::format("mesh {} \"{}\": vertex {} is ({:g}, {:g}, {:g}), expected finite numbers", index,
-                                        text(source.mName), i, p.x, p.y, p.z)};
+        if (!(std::abs(p.x) <= kCoordinateLimit && std::abs(p.y) <= kCoordinateLimit &&
+              std::abs(p.z) <= kCoordinateLimit))
+            throw ReadError{fmt::format("mesh {} \"{}\": vertex {} is ({:g}, {:g}, {:g}), expected finite numbers",
+                                        index, text(source.mName), i, p.x, p.y, p.z)};
         out.positions.push_back(p);
     }
     for (std::size_t i = 0; i < n && source.HasNormals(); ++i) out.normals.push_back(vec(source.mNormals[i]));
@@ -176,7 +179,7 @@ Primitive SceneReader::readPrimitive(unsigned index, Skin* skin) {
     readUv(0, out.uv0);
     readUv(1, out.uv1);
     for (std::size_t i = 0; i < n && source.HasVertexColors(0); ++i) {
-        const aiColor4D c = source.mColors[0][i];   // these formats store what the author's screen showed
+        const aiColor4D c = source.mColors[0][i];  // these formats store what the author's screen showed
         out.colors.push_back({linearFromSrgb(c.r), linearFromSrgb(c.g), linearFromSrgb(c.b), c.a});
     }
     clearNonFinite({reinterpret_cast<float*>(out.colors.data()), out.colors.size() * 4});
@@ -185,7 +188,8 @@ Primitive SceneReader::readPrimitive(unsigned index, Skin* skin) {
         if (face.mNumIndices != 3) continue;
         for (unsigned c = 0; c < 3; ++c) {
             if (face.mIndices[c] >= n)
-                throw ReadError{fmt::format("mesh {}: face {} uses vertex {}, but there are only {}", index, f, face.mIndices[c], n)};
+                throw ReadError{fmt::format("mesh {}: face {} uses vertex {}, but there are only {}", index, f,
+                                            face.mIndices[c], n)};
             out.indices.push_back(face.mIndices[c]);
         }
     }
@@ -217,7 +221,8 @@ void SceneReader::readBones(const aiMesh& source, Skin& skin, Primitive& primiti
                     throw ReadError{fmt::format("bone \"{}\": its bind matrix is not finite", node->first)};
             }
         std::size_t joint = 0;
-        while (joint < skin.joints.size() && !(skin.joints[joint] == node->second && skin.jointFromMesh[joint] == jointFromMesh))
+        while (joint < skin.joints.size() &&
+               !(skin.joints[joint] == node->second && skin.jointFromMesh[joint] == jointFromMesh))
             ++joint;
         if (joint > 0xFFFF) throw ReadError{"a skin of more than 65536 joints"};
         if (joint == skin.joints.size()) {
@@ -239,7 +244,8 @@ void SceneReader::readBones(const aiMesh& source, Skin& skin, Primitive& primiti
 
 // Appends the keys whose times increase; `value` appends one key's floats.
 template <class Key, class Value>
-Channel channelOf(int node, ChannelTarget target, const Key* keys, unsigned count, double secondsPerTick, const Value& value) {
+Channel channelOf(int node, ChannelTarget target, const Key* keys, unsigned count, double secondsPerTick,
+                  const Value& value) {
     Channel channel;
     channel.node = node;
     channel.target = target;
@@ -304,7 +310,7 @@ Axes axesOf(const aiScene& scene, const std::string& extension, const ModelReadO
     }
     if (options.up == UpAxis::z) axes.rotation = axisAngle({1, 0, 0}, -kPi / 2);
     if (options.scale > 0) axes.scale = options.scale;
-    if (options.scale > 0 && extension == ".dae") {   // assimp has put the file's unit into the root node
+    if (options.scale > 0 && extension == ".dae") {  // assimp has put the file's unit into the root node
         aiVector3D unit, position;
         aiQuaternion rotation;
         scene.mRootNode->mTransformation.Decompose(unit, rotation, position);
@@ -343,9 +349,11 @@ bool isAssimpExtension(const std::string& extension) {
     return std::find(std::begin(kExtensions), std::end(kExtensions), extension) != std::end(kExtensions);
 }
 
-Result<Model> readAssimp(const std::filesystem::path& path, std::span<const std::byte> bytes, const ModelReadOptions& options) {
+Result<Model> readAssimp(const std::filesystem::path& path, std::span<const std::byte> bytes,
+                         const ModelReadOptions& options) {
     std::string extension = path.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return char(std::tolower(c)); });
     try {
         if (const std::string fault = headerFault(extension, bytes); !fault.empty()) throw ReadError{fault};
         return readScene(path, extension, options);

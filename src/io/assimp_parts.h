@@ -17,8 +17,8 @@ namespace shoal::io {
 // case with its dot.
 std::string headerFault(const std::string& extension, std::span<const std::byte> bytes);
 
-// Materials, and the images they use: embedded ones or those found beside `path`. What cannot be found or decoded is left
-// out with a warning.
+// Materials, and the images they use: embedded ones or those found beside `path`. What cannot be found or decoded is
+// left out with a warning.
 void readAssimpMaterials(const aiScene& scene, const std::filesystem::path& path, const LogSink& log, Model& model);
 
 }  // namespace shoal::io

@@ -13,18 +13,18 @@ namespace {
 
 struct Keys {
     std::vector<float> times;
-    std::vector<std::uint32_t> kept;   // which of the file's keys the times are
+    std::vector<std::uint32_t> kept;  // which of the file's keys the times are
     std::size_t fileCount = 0;
 };
 
 class AnimationReader {
- public:
+public:
     AnimationReader(GltfDocument& document, Model& model, std::span<const int> placeOfNode)
         : document_(document), model_(model), placeOfNode_(placeOfNode) {}
 
     void readClip(const JsonValue& json);
 
- private:
+private:
     const Keys& keys(const JsonValue& where);
     bool readTarget(const JsonValue& json, Channel& channel, std::size_t& width);
     void readValues(const JsonValue& sampler, std::size_t width, Channel& channel);
@@ -32,7 +32,7 @@ class AnimationReader {
     GltfDocument& document_;
     Model& model_;
     std::span<const int> placeOfNode_;
-    std::map<std::size_t, Keys> keys_;   // by accessor: the channels of a clip mostly share one
+    std::map<std::size_t, Keys> keys_;  // by accessor: the channels of a clip mostly share one
 };
 
 // Key times; of keys at the same time the first stays.
@@ -90,8 +90,9 @@ void AnimationReader::readValues(const JsonValue& sampler, std::size_t width, Ch
     const bool cubic = channel.interpolation == Interpolation::cubicSpline;
     const std::size_t perKey = width * (cubic ? 3 : 1);
     const std::size_t there = accessor.count * std::size_t(accessor.componentCount);
-    const bool rightType = channel.target == ChannelTarget::morphWeights ? accessor.componentCount == 1
-                                                                         : std::size_t(accessor.componentCount) == width;
+    const bool rightType = channel.target == ChannelTarget::morphWeights
+                               ? accessor.componentCount == 1
+                               : std::size_t(accessor.componentCount) == width;
     if (!rightType) output.fail(fmt::format("{} numbers an element, expected {}", accessor.componentCount, width));
     if (there < times.fileCount * perKey || there % perKey)
         output.fail(fmt::format("{} numbers, but {} keys need {}", there, times.fileCount, times.fileCount * perKey));
@@ -108,7 +109,8 @@ void AnimationReader::readValues(const JsonValue& sampler, std::size_t width, Ch
     if (channel.target != ChannelTarget::rotation) return;
     for (std::size_t key = 0; key < channel.times.size(); ++key) {
         float* q = channel.values.data() + key * perKey + (cubic ? width : 0);
-        const double l = std::sqrt(double(q[0]) * q[0] + double(q[1]) * q[1] + double(q[2]) * q[2] + double(q[3]) * q[3]);
+        const double l =
+            std::sqrt(double(q[0]) * q[0] + double(q[1]) * q[1] + double(q[2]) * q[2] + double(q[3]) * q[3]);
         if (!(l > 1e-12)) output.fail(fmt::format("key {} is a quaternion of length 0", times.kept[key]));
         for (int c = 0; c < 4; ++c) q[c] = float(double(q[c]) / l);
     }
@@ -125,8 +127,10 @@ void AnimationReader::readClip(const JsonValue& json) {
         if (!readTarget(channels[i], channel, width)) continue;
         const JsonValue sampler = samplers[std::size_t(index)];
         const std::string& interpolation = sampler.text("interpolation");
-        if (interpolation == "STEP") channel.interpolation = Interpolation::step;
-        else if (interpolation == "CUBICSPLINE") channel.interpolation = Interpolation::cubicSpline;
+        if (interpolation == "STEP")
+            channel.interpolation = Interpolation::step;
+        else if (interpolation == "CUBICSPLINE")
+            channel.interpolation = Interpolation::cubicSpline;
         else if (!interpolation.empty() && interpolation != "LINEAR")
             sampler.fail("interpolation, expected LINEAR, STEP or CUBICSPLINE");
         readValues(sampler, width, channel);

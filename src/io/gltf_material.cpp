@@ -3,13 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <optional>
 
 #include <fmt/format.h>
 
-#include <shoal/core/parallel.h>
 #include <shoal/io/image.h>
-#include <shoal/io/model.h>
 
 #include "io/gltf_parts.h"
 
@@ -17,13 +14,14 @@ namespace shoal::io {
 
 namespace {
 
-constexpr std::string_view kReadExtensions[] = {
-    "KHR_lights_punctual",        "KHR_texture_transform", "KHR_materials_unlit", "KHR_materials_emissive_strength",
-    "KHR_materials_transmission", "KHR_materials_ior",     "KHR_mesh_quantization", "KHR_materials_pbrSpecularGlossiness"};
+constexpr std::string_view kReadExtensions[] = {"KHR_lights_punctual",        "KHR_texture_transform",
+                                                "KHR_materials_unlit",        "KHR_materials_emissive_strength",
+                                                "KHR_materials_transmission", "KHR_materials_ior",
+                                                "KHR_mesh_quantization",      "KHR_materials_pbrSpecularGlossiness"};
 // A file that requires one of these still shows right but for the finer points of a material.
-constexpr std::string_view kHarmlessExtensions[] = {
-    "KHR_xmp_json_ld",         "KHR_materials_variants", "KHR_materials_specular",
-    "KHR_materials_clearcoat", "KHR_materials_sheen",    "KHR_materials_volume"};
+constexpr std::string_view kHarmlessExtensions[] = {"KHR_xmp_json_ld",        "KHR_materials_variants",
+                                                    "KHR_materials_specular", "KHR_materials_clearcoat",
+                                                    "KHR_materials_sheen",    "KHR_materials_volume"};
 
 Wrap wrapOf(const JsonValue& sampler, std::string_view key) {
     switch (sampler.whole(key, 10497)) {
@@ -44,10 +42,10 @@ public:
         : document_(document), model_(model), textures_(document.list("textures")),
           samplers_(document.list("samplers")), images_(document.list("images")) {}
 
-    void readAll() {
+    std::vector<GltfImage> readAll() {
         const JsonValue materials = document_.list("materials");
         for (std::size_t i = 0; i < materials.size(); ++i) readMaterial(materials[i]);
-        decodeImages();
+        return usedImages();
     }
 
 private:
@@ -56,7 +54,7 @@ private:
     void readSpecularGlossiness(const JsonValue& sg, Material& material);
     TextureUse texture(const JsonValue& parent, std::string_view key);
     int modelImage(std::size_t fileImage);
-    void decodeImages();
+    std::vector<GltfImage> usedImages() const;
 
     GltfDocument& document_;
     Model& model_;
@@ -189,28 +187,13 @@ void MaterialReader::readMaterial(const JsonValue& json) {
     model_.materials.push_back(std::move(material));
 }
 
-void MaterialReader::decodeImages() {
-    struct Source {
-        std::span<const std::byte> bytes;
-        std::vector<std::byte> storage;
-        std::optional<Result<ByteImage>> decoded;
-    };
-    std::vector<Source> sources(used_.size());
-    for (std::size_t i = 0; i < used_.size(); ++i) sources[i].bytes = document_.resource(used_[i], sources[i].storage);
-    parallelFor(sources.size(), 1, [&](std::size_t i) {
-        const std::string name = fmt::format("{}: {}", document_.name(), used_[i].path());
-        sources[i].decoded = decodeImage(sources[i].bytes, name);
-    });
-    for (std::size_t i = 0; i < sources.size(); ++i) {
-        Result<ByteImage>& image = *sources[i].decoded;
-        if (!image) {
-            std::string message = image.error().message;  // begins with the name given above
-            if (message.starts_with(document_.name() + ": ")) message.erase(0, document_.name().size() + 2);
-            throw GltfError{message};
-        }
-        document_.charge(used_[i], image->pixels.size());
-        model_.images.push_back(*std::move(image));
+std::vector<GltfImage> MaterialReader::usedImages() const {
+    std::vector<GltfImage> images(used_.size());
+    for (std::size_t i = 0; i < used_.size(); ++i) {
+        images[i].json = used_[i];
+        images[i].bytes = document_.resource(used_[i], images[i].storage);
     }
+    return images;
 }
 
 }  // namespace
@@ -236,6 +219,25 @@ void checkExtensions(const GltfDocument& document) {
             document.log(LogLevel::info, fmt::format("extension {} is ignored", used[i].asText().substr(0, 80)));
 }
 
-void readGltfMaterials(GltfDocument& document, Model& model) { MaterialReader(document, model).readAll(); }
+std::vector<GltfImage> readGltfMaterials(GltfDocument& document, Model& model) {
+    return MaterialReader(document, model).readAll();
+}
+
+void decodeGltfImage(const GltfDocument& document, GltfImage& image) {
+    image.decoded = decodeImage(image.bytes, fmt::format("{}: {}", document.name(), image.json.path()));
+}
+
+void takeGltfImages(GltfDocument& document, std::span<GltfImage> images, Model& model) {
+    for (GltfImage& image : images) {
+        Result<ByteImage>& decoded = *image.decoded;
+        if (!decoded) {
+            std::string message = decoded.error().message;  // begins with the name given above
+            if (message.starts_with(document.name() + ": ")) message.erase(0, document.name().size() + 2);
+            throw GltfError{message};
+        }
+        document.charge(image.json, decoded->pixels.size());
+        model.images.push_back(*std::move(decoded));
+    }
+}
 
 }  // namespace shoal::io

@@ -14,9 +14,9 @@ namespace {
 constexpr float kLuminousEfficacy = 683.0f;
 
 struct Tree {
-    std::vector<int> parents;                 // of the file's nodes; -1 for none
+    std::vector<int> parents;  // of the file's nodes; -1 for none
     std::vector<std::vector<int>> children;
-    std::vector<int> order;                   // parents first
+    std::vector<int> order;  // parents first
 };
 
 // Checks that every node has one parent at most and that there is no cycle, and orders the nodes.
@@ -81,20 +81,21 @@ void decompose(const JsonValue& json, const std::array<float, 16>& m, Node& node
             axis[out][r] = axis[a][(r + 1) % 3] * axis[b][(r + 2) % 3] - axis[a][(r + 2) % 3] * axis[b][(r + 1) % 3];
     };
     const int flat = int(scale[0] == 0) + int(scale[1] == 0) + int(scale[2] == 0);
-    if (flat == 1) {   // a shadow or a decal pressed flat: its third axis follows from the other two
+    if (flat == 1) {  // a shadow or a decal pressed flat: its third axis follows from the other two
         const int f = scale[0] == 0 ? 0 : scale[1] == 0 ? 1 : 2;
         crossInto((f + 1) % 3, (f + 2) % 3, f);
     }
     double determinant = 0;
     for (int r = 0; r < 3; ++r)
-        determinant += axis[0][r] * (axis[1][(r + 1) % 3] * axis[2][(r + 2) % 3] - axis[1][(r + 2) % 3] * axis[2][(r + 1) % 3]);
+        determinant +=
+            axis[0][r] * (axis[1][(r + 1) % 3] * axis[2][(r + 2) % 3] - axis[1][(r + 2) % 3] * axis[2][(r + 1) % 3]);
     if (determinant < 0) {
         scale[0] = -scale[0];
         for (double& value : axis[0]) value = -value;
     }
     node.translation = {m[12], m[13], m[14]};
     node.scale = {float(scale[0]), float(scale[1]), float(scale[2])};
-    if (flat > 1) return;   // no rotation can be told
+    if (flat > 1) return;  // no rotation can be told
     // Shepperd's method: the largest of the four components first.
     const double xx = axis[0][0], yy = axis[1][1], zz = axis[2][2];
     double q[4];
@@ -119,7 +120,8 @@ void readTransform(const JsonValue& json, Node& node) {
     const auto r = json.reals<4>("rotation", {0, 0, 0, 1});
     node.translation = {t[0], t[1], t[2]};
     node.scale = {s[0], s[1], s[2]};
-    const double length = std::sqrt(double(r[0]) * r[0] + double(r[1]) * r[1] + double(r[2]) * r[2] + double(r[3]) * r[3]);
+    const double length =
+        std::sqrt(double(r[0]) * r[0] + double(r[1]) * r[1] + double(r[2]) * r[2] + double(r[3]) * r[3]);
     if (!(length > 1e-12)) json.fail("rotation: a quaternion of length 0");
     node.rotation = {float(r[0] / length), float(r[1] / length), float(r[2] / length), float(r[3] / length)};
 }
@@ -151,10 +153,14 @@ void readLight(const JsonValue& json, Model& model) {
     ModelLight light;
     light.name = json.text("name");
     const std::string& type = json.text("type");
-    if (type == "directional") light.kind = ModelLight::Kind::directional;
-    else if (type == "point") light.kind = ModelLight::Kind::point;
-    else if (type == "spot") light.kind = ModelLight::Kind::spot;
-    else json.fail("type, expected \"directional\", \"point\" or \"spot\"");
+    if (type == "directional")
+        light.kind = ModelLight::Kind::directional;
+    else if (type == "point")
+        light.kind = ModelLight::Kind::point;
+    else if (type == "spot")
+        light.kind = ModelLight::Kind::spot;
+    else
+        json.fail("type, expected \"directional\", \"point\" or \"spot\"");
     const auto color = json.reals<3>("color", {1, 1, 1});
     const float intensity = json.real("intensity", 1);
     if (intensity < 0) json.fail(fmt::format("intensity {:g}, expected 0 or more", intensity));
@@ -221,7 +227,8 @@ void readNodeContent(const JsonValue& json, const Model& model, const std::vecto
     if (const JsonValue weights = json.array("weights")) {
         const std::size_t targetCount = model.meshes[mesh].morphWeights.size();
         if (weights.size() != targetCount && !model.meshes[mesh].primitives.empty())
-            weights.fail(fmt::format("{} weights, but meshes[{}] has {} morph targets", weights.size(), mesh, targetCount));
+            weights.fail(
+                fmt::format("{} weights, but meshes[{}] has {} morph targets", weights.size(), mesh, targetCount));
         for (std::size_t i = 0; i < targetCount; ++i) node.morphWeights.push_back(weights[i].asReal());
     }
 }

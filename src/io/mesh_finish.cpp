@@ -173,7 +173,7 @@ std::vector<Vec3> creaseNormalOfCorners(const Primitive& p, float creaseCosine) 
 void makeCreaseNormals(Primitive& p, float creaseCosine) {
     const std::vector<Vec3> normalOfCorner = creaseNormalOfCorners(p, creaseCosine);
     constexpr std::uint32_t kNone = ~std::uint32_t(0);
-    std::vector<std::uint32_t> head(p.vertexCount(), kNone), next, source, indices;   // new vertices of each old one
+    std::vector<std::uint32_t> head(p.vertexCount(), kNone), next, source, indices;  // new vertices of each old one
     std::vector<Vec3> normals;
     indices.reserve(p.indices.size());
     for (std::size_t c = 0; c < p.indices.size(); ++c) {
@@ -232,11 +232,11 @@ void makeTangents(Primitive& p, bool fromUv1) {
         Vec3 tangent;
         float angle = 0;
     };
-    std::vector<std::array<Sum, 2>> sums(p.vertexCount());   // of handedness +1, -1
+    std::vector<std::array<Sum, 2>> sums(p.vertexCount());  // of handedness +1, -1
     for (std::size_t i = 0; !uv.empty() && i + 2 < p.indices.size(); i += 3) {
         const std::uint32_t v[3] = {p.indices[i], p.indices[i + 1], p.indices[i + 2]};
-        const TextureAxes axes = textureAxes({p.positions[v[0]], p.positions[v[1]], p.positions[v[2]]},
-                                             {uv[v[0]], uv[v[1]], uv[v[2]]});
+        const TextureAxes axes =
+            textureAxes({p.positions[v[0]], p.positions[v[1]], p.positions[v[2]]}, {uv[v[0]], uv[v[1]], uv[v[2]]});
         if (!axes.valid) continue;
         for (int c = 0; c < 3; ++c) {
             const Vec3 at = p.positions[v[c]], n = p.normals[v[c]];

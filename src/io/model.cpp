@@ -15,7 +15,8 @@ namespace {
 
 std::string lowerExtension(const std::filesystem::path& path) {
     std::string extension = path.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return char(std::tolower(c)); });
     return extension;
 }
 
@@ -31,8 +32,10 @@ bool isModelFile(const std::filesystem::path& path) {
 Result<Model> readModel(const std::filesystem::path& path, const ModelReadOptions& options) {
     const std::string extension = lowerExtension(path);
     if (!isGltf(extension) && !isAssimpExtension(extension))
-        return badInput(fmt::format("{}: unknown model format \"{}\", expected .gltf, .glb, .obj, .ply, .stl, .fbx, .dae, "
-                                    ".3ds or another that assimp reads", path.string(), extension));
+        return badInput(
+            fmt::format("{}: unknown model format \"{}\", expected .gltf, .glb, .obj, .ply, .stl, .fbx, .dae, "
+                        ".3ds or another that assimp reads",
+                        path.string(), extension));
     SHOAL_TRY_ASSIGN(const std::vector<std::byte> bytes, readFile(path));
     if (!isGltf(extension)) return readAssimp(path, bytes, options);
     const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");

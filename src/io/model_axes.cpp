@@ -6,7 +6,7 @@ namespace shoal::io {
 
 void applyAxes(Model& model, Quat metresFromFile, float scale) {
     if (metresFromFile == Quat{} && scale == 1) return;
-    for (Node& node : model.nodes) ++node.parent;   // -1 becomes the new root, 0
+    for (Node& node : model.nodes) ++node.parent;  // -1 becomes the new root, 0
     for (Skin& skin : model.skins)
         for (int& joint : skin.joints) ++joint;
     for (Clip& clip : model.clips)

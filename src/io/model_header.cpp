@@ -28,7 +28,7 @@ std::string headerFault(const std::string& extension, std::span<const std::byte>
             }
             if (count < 0 || count > double(bytes.size() - end))
                 return fmt::format("PLY element count {:.0f}, but only {} bytes follow the header", count,
-                                            bytes.size() - end);
+                                   bytes.size() - end);
         }
     }
     if (extension == ".stl" && !content.starts_with("solid")) {
@@ -37,7 +37,7 @@ std::string headerFault(const std::string& extension, std::span<const std::byte>
         std::memcpy(&count, bytes.data() + 80, 4);
         if (std::uint64_t(count) * 50 + 84 > bytes.size())
             return fmt::format("truncated: {} triangles need {} bytes, the file has {}", count,
-                                        std::uint64_t(count) * 50 + 84, bytes.size());
+                               std::uint64_t(count) * 50 + 84, bytes.size());
     }
     return {};
 }

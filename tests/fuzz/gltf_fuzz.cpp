@@ -10,8 +10,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto model = shoal::io::readGltf(std::as_bytes(std::span(data, size)), {}, "fuzz.glb");
     if (!model) return 0;
     shoal::Pose pose;
-    for (int clip = -1; clip < int(model->clips.size()); ++clip)
-        shoal::poseModel(*model, clip, 0.3f, true, pose);
+    for (int clip = -1; clip < int(model->clips.size()); ++clip) shoal::poseModel(*model, clip, 0.3f, true, pose);
     (void)shoal::posedBounds(*model, pose);
     return 0;
 }

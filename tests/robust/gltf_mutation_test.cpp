@@ -1,4 +1,5 @@
-// Damaged .glb files: none crashes, hangs or takes more memory than its size allows; an error is one line that names it.
+// Damaged .glb files: none crashes, hangs or takes more memory than its size allows; an error is one line that names
+// it.
 #include <gtest/gtest.h>
 
 #include <cstring>

@@ -18,9 +18,9 @@ enum class UpAxis { automatic, y, z };
 
 struct ModelReadOptions {
     UpAxis up = UpAxis::automatic;
-    float scale = 0;            // metres a file unit; 0: the file's own unit, metres where it names none
-    bool flipWinding = false;   // turns every triangle and normal over: for files whose surfaces face inwards
-    LogSink log;                // told what was left out or repaired; may be empty
+    float scale = 0;           // metres a file unit; 0: the file's own unit, metres where it names none
+    bool flipWinding = false;  // turns every triangle and normal over: for files whose surfaces face inwards
+    LogSink log;               // told what was left out or repaired; may be empty
 };
 
 // What the decoded model may take in memory, all arrays and images together.

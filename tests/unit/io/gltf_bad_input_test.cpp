@@ -53,7 +53,8 @@ TEST(GltfBadInput, Container) {
     std::vector<std::byte> glb = skinnedQuad(smallPng()).glb();
     const std::size_t whole = glb.size();
     std::vector<std::byte> cut(glb.begin(), glb.begin() + std::ptrdiff_t(whole / 2));
-    EXPECT_EQ(fault(cut), fmt::format("bad.glb: truncated: its header says {} bytes, the file has {}", whole, whole / 2));
+    EXPECT_EQ(fault(cut),
+              fmt::format("bad.glb: truncated: its header says {} bytes, the file has {}", whole, whole / 2));
     EXPECT_EQ(fault({glb.begin(), glb.begin() + 15}), "bad.glb: truncated: 15 bytes, too short for a .glb");
     EXPECT_EQ(fault({}), "bad.glb: empty file");
     std::vector<std::byte> wrong = glb;
@@ -63,7 +64,7 @@ TEST(GltfBadInput, Container) {
     wrong[4] = std::byte(1);
     EXPECT_EQ(fault(wrong), "bad.glb: binary glTF version 1, expected 2");
     wrong = glb;
-    wrong[14] = std::byte(0xFF);   // the JSON chunk's length
+    wrong[14] = std::byte(0xFF);  // the JSON chunk's length
     EXPECT_NE(fault(wrong).find("bad.glb: chunk 0 has "), std::string::npos) << fault(wrong);
     wrong = glb;
     wrong[16] = std::byte('B');
@@ -75,7 +76,8 @@ TEST(GltfBadInput, Json) {
     EXPECT_EQ(faultOfText("{}"), "bad.glb: \"asset\" is missing");
     EXPECT_EQ(faultOfText(R"({"asset":{"version":"1.0"}})"), "bad.glb: asset: glTF version \"1.0\", expected 2.0");
     EXPECT_EQ(faultOfText(R"({"asset":{"version":"2.0"},"nodes":{}})"), "bad.glb: nodes: an object, expected an array");
-    EXPECT_EQ(faultOfText(R"({"asset":{"version":"2.0"},"nodes":[3]})"), "bad.glb: nodes[0]: a number, expected an object");
+    EXPECT_EQ(faultOfText(R"({"asset":{"version":"2.0"},"nodes":[3]})"),
+              "bad.glb: nodes[0]: a number, expected an object");
     EXPECT_EQ(faultOfText(R"({"asset":{"version":"2.0"},"nodes":[{"scale":[1,2]}]})"),
               "bad.glb: nodes[0].scale: 2 numbers, expected 3");
     EXPECT_EQ(faultOfText(R"({"asset":{"version":"2.0"},"nodes":[{"scale":[1,2,1e40]}]})"),
@@ -102,10 +104,13 @@ TEST(GltfBadInput, BuffersAndAccessors) {
                           skinnedQuad(smallPng()).binary.size()));
     EXPECT_EQ(faultWith(R"("byteOffset":0,"byteLength":48)", R"("byteOffset":0,"byteLength":0)"),
               "bad.glb: bufferViews[0]: byteLength 0, expected at least 1");
-    EXPECT_EQ(faultWith(R"("byteOffset":0,)", R"("byteOffset":9007199254740990,)").find("bad.glb: bufferViews[0]: bytes "), 0u);
+    EXPECT_EQ(
+        faultWith(R"("byteOffset":0,)", R"("byteOffset":9007199254740990,)").find("bad.glb: bufferViews[0]: bytes "),
+        0u);
     EXPECT_EQ(faultWith(R"("componentType":5126)", R"("componentType":5130)"),
               "bad.glb: accessors[0]: componentType 5130, expected 5120 to 5126");
-    EXPECT_NE(faultWith(R"("buffers":[{"byteLength":)", R"("buffers":[{"byteLength":9)").find("bad.glb: buffers[0]: byteLength 9"),
+    EXPECT_NE(faultWith(R"("buffers":[{"byteLength":)", R"("buffers":[{"byteLength":9)")
+                  .find("bad.glb: buffers[0]: byteLength 9"),
               std::string::npos);
 }
 
@@ -129,10 +134,12 @@ TEST(GltfBadInput, Mesh) {
               "bad.glb: meshes[0].primitives[0].attributes.NORMAL: accessor 10 is SCALAR, expected VEC3");
     EXPECT_EQ(faultWith(R"("material":0)", R"("material":1)"),
               "bad.glb: meshes[0].primitives[0]: material 1, but there are only 1");
-    EXPECT_EQ(faultWith(R"("indices":5)", R"("indices":5,"mode":9)"), "bad.glb: meshes[0].primitives[0]: mode 9, expected 0 to 6");
+    EXPECT_EQ(faultWith(R"("indices":5)", R"("indices":5,"mode":9)"),
+              "bad.glb: meshes[0].primitives[0]: mode 9, expected 0 to 6");
     EXPECT_EQ(faultWith(R"("weights":[0.5])", R"("weights":[0.5,1])"),
               "bad.glb: meshes[0].weights: 2 weights, but there are 1 morph targets");
-    EXPECT_EQ(faultWith(R"(,"WEIGHTS_0":4)", ""), "bad.glb: meshes[0].primitives[0].attributes: JOINTS_0 without WEIGHTS_0");
+    EXPECT_EQ(faultWith(R"(,"WEIGHTS_0":4)", ""),
+              "bad.glb: meshes[0].primitives[0].attributes: JOINTS_0 without WEIGHTS_0");
 }
 
 TEST(GltfBadInput, NodeTree) {
@@ -143,8 +150,10 @@ TEST(GltfBadInput, NodeTree) {
               "bad.glb: nodes[1]: is its own ancestor or hangs from one that is (a cycle in the node tree)");
     EXPECT_EQ(faultOfText(head + R"({"children":[0]}]})"),
               "bad.glb: nodes[0]: is its own ancestor or hangs from one that is (a cycle in the node tree)");
-    EXPECT_EQ(faultOfText(head + R"({"children":[5]}]})"), "bad.glb: nodes[0].children[0]: node 5, but there are only 1");
-    EXPECT_EQ(faultOfText(head + R"({"rotation":[0,0,0,0]}]})"), "bad.glb: nodes[0]: rotation: a quaternion of length 0");
+    EXPECT_EQ(faultOfText(head + R"({"children":[5]}]})"),
+              "bad.glb: nodes[0].children[0]: node 5, but there are only 1");
+    EXPECT_EQ(faultOfText(head + R"({"rotation":[0,0,0,0]}]})"),
+              "bad.glb: nodes[0]: rotation: a quaternion of length 0");
     // A chain of 200,000 nodes is no error, and no recursion either.
     std::string chain = head;
     for (int i = 1; i < 200000; ++i) chain += fmt::format(R"({{"children":[{}]}},)", i);
@@ -154,7 +163,8 @@ TEST(GltfBadInput, NodeTree) {
 TEST(GltfBadInput, Skin) {
     EXPECT_EQ(faultWith(R"("joints":[1,2])", R"("joints":[1])"),
               "bad.glb: nodes[0]: skin 0 has 1 joints, but meshes[0].primitives[0] uses joint 1");
-    EXPECT_EQ(faultWith(R"("joints":[1,2])", R"("joints":[1,9])"), "bad.glb: skins[0].joints[1]: node 9, but there are only 4");
+    EXPECT_EQ(faultWith(R"("joints":[1,2])", R"("joints":[1,9])"),
+              "bad.glb: skins[0].joints[1]: node 9, but there are only 4");
     EXPECT_EQ(faultWith(R"("joints":[1,2])", R"("joints":[1,2,3])"),
               "bad.glb: skins[0].inverseBindMatrices: 2 matrices, but there are 3 joints");
     EXPECT_EQ(faultWith(R"("joints":[1,2])", R"("joints":[])"), "bad.glb: skins[0]: no joints");
@@ -169,13 +179,15 @@ TEST(GltfBadInput, Images) {
     EXPECT_EQ(fault(skinnedQuad(cut).glb()).find("bad.glb: images[0]: "), 0u) << fault(skinnedQuad(cut).glb());
     EXPECT_EQ(faultWith(R"({"bufferView":11,"mimeType":"image/png"})", R"({"uri":"a.png"})"),
               "bad.glb: images[0]: uri \"a.png\": there is no folder to look in");
-    EXPECT_EQ(faultWith(R"({"bufferView":11,"mimeType":"image/png"})", R"({"uri":"data:image/png;base64,?"})").find(
-                  "bad.glb: images[0]: uri: "), 0u);
+    EXPECT_EQ(faultWith(R"({"bufferView":11,"mimeType":"image/png"})", R"({"uri":"data:image/png;base64,?"})")
+                  .find("bad.glb: images[0]: uri: "),
+              0u);
     EXPECT_EQ(faultWith(R"("source":0)", R"("source":2)"), "bad.glb: textures[0]: source 2, but there are only 1");
 }
 
 TEST(GltfBadInput, Animation) {
-    EXPECT_EQ(faultWithFloat(8, 0, 3), "bad.glb: animations[0].samplers[0].input: key 1 is at 1 s, before the one at 3 s");
+    EXPECT_EQ(faultWithFloat(8, 0, 3),
+              "bad.glb: animations[0].samplers[0].input: key 1 is at 1 s, before the one at 3 s");
     EXPECT_EQ(faultWithFloat(8, 1, std::numeric_limits<float>::quiet_NaN()),
               "bad.glb: animations[0].samplers[0].input: key 1 is at nan s, expected a finite time");
     EXPECT_EQ(faultWithFloat(9, 3, 0), "bad.glb: animations[0].samplers[0].output: key 0 is a quaternion of length 0");
@@ -183,16 +195,19 @@ TEST(GltfBadInput, Animation) {
               "bad.glb: animations[0].samplers[0].output: 4 numbers an element, expected 3");
     EXPECT_EQ(faultWith(R"("interpolation":"STEP")", R"("interpolation":"CUBICSPLINE")"),
               "bad.glb: animations[0].samplers[1].output: 2 numbers, but 2 keys need 6");
-    EXPECT_EQ(faultWith(R"({"sampler":1,)", R"({"sampler":2,)"), "bad.glb: animations[0].channels[1]: sampler 2, but there are only 2");
+    EXPECT_EQ(faultWith(R"({"sampler":1,)", R"({"sampler":2,)"),
+              "bad.glb: animations[0].channels[1]: sampler 2, but there are only 2");
 }
 
 TEST(GltfBadInput, RequiredExtensionsAreNamed) {
-    for (const char* name : {"KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_texture_basisu", "EXT_texture_webp",
-                             "ACME_unheard_of"}) {
+    for (const char* name : {"KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_texture_basisu",
+                             "EXT_texture_webp", "ACME_unheard_of"}) {
         GltfBuilder b = skinnedQuad(smallPng());
         b.more = fmt::format(R"(,"extensionsUsed":["{0}"],"extensionsRequired":["{0}"])", name);
         const std::string message = fault(b.glb());
-        EXPECT_EQ(message.find(fmt::format("bad.glb: extensionsRequired[0]: the file needs the extension {}", name)), 0u) << message;
+        EXPECT_EQ(message.find(fmt::format("bad.glb: extensionsRequired[0]: the file needs the extension {}", name)),
+                  0u)
+            << message;
         EXPECT_NE(message.find("not supported"), std::string::npos);
     }
     GltfBuilder fine = skinnedQuad(smallPng());
@@ -210,7 +225,8 @@ TEST(GltfBadInput, Files) {
     EXPECT_NE(message("missing.glb").find("missing.glb"), std::string::npos);
     EXPECT_NE(message("folder.glb").find("folder.glb"), std::string::npos);
     EXPECT_NE(message("scene.xyz").find("unknown model format \".xyz\""), std::string::npos);
-    std::ofstream(folder / "lost.gltf") << R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":4,"uri":"lost.bin"}]})";
+    std::ofstream(folder / "lost.gltf")
+        << R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":4,"uri":"lost.bin"}]})";
     EXPECT_NE(message("lost.gltf").find("buffers[0]: "), std::string::npos) << message("lost.gltf");
     EXPECT_NE(message("lost.gltf").find("lost.bin"), std::string::npos);
     std::filesystem::remove_all(folder);

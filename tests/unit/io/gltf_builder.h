@@ -36,7 +36,7 @@ struct GltfBuilder {
     std::vector<std::byte> binary;
     std::vector<std::string> views, accessors, meshes, nodes, skins, animations, materials, textures, images, cameras,
         samplers;
-    std::string scenes = R"([{"nodes":[0]}])", more;   // more: further top-level members, each with a leading comma
+    std::string scenes = R"([{"nodes":[0]}])", more;  // more: further top-level members, each with a leading comma
 
     template <class T>
     int view(const std::vector<T>& values) {
@@ -93,8 +93,8 @@ inline GltfBuilder skinnedQuad(const std::vector<std::uint8_t>& png) {
     const int weights = b.floats({1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, "VEC4", 4);
     const int indices = b.accessor<std::uint16_t>({0, 1, 2, 0, 2, 3}, 5123, "SCALAR", 6);
     const int morph = b.floats({0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 1}, "VEC3", 4);
-    const int bind = b.floats({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1,
-                               1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, -1, 0, 1}, "MAT4", 2);
+    const int bind = b.floats(
+        {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, -1, 0, 1}, "MAT4", 2);
     const int times = b.floats({0, 1}, "SCALAR", 2);
     const int turns = b.floats({0, 0, 0, 1, 0, 0, 0.70710678f, 0.70710678f}, "VEC4", 2);
     const int morphs = b.floats({0, 1}, "SCALAR", 2);
@@ -102,8 +102,9 @@ inline GltfBuilder skinnedQuad(const std::vector<std::uint8_t>& png) {
     b.images = {fmt::format(R"({{"bufferView":{},"mimeType":"image/png"}})", picture)};
     b.samplers = {R"({"wrapS":33071,"wrapT":33648,"magFilter":9728})"};
     b.textures = {R"({"source":0,"sampler":0})"};
-    b.materials = {R"({"name":"cloth","pbrMetallicRoughness":{"baseColorTexture":{"index":0},"metallicFactor":0},)"
-                   R"("normalTexture":{"index":0,"scale":0.5},"alphaMode":"MASK","alphaCutoff":0.25,"doubleSided":true})"};
+    b.materials = {
+        R"({"name":"cloth","pbrMetallicRoughness":{"baseColorTexture":{"index":0},"metallicFactor":0},)"
+        R"("normalTexture":{"index":0,"scale":0.5},"alphaMode":"MASK","alphaCutoff":0.25,"doubleSided":true})"};
     b.meshes = {fmt::format(
         R"({{"name":"quad","primitives":[{{"attributes":{{"POSITION":{},"NORMAL":{},"TEXCOORD_0":{},"JOINTS_0":{},)"
         R"("WEIGHTS_0":{}}},"indices":{},"material":0,"targets":[{{"POSITION":{}}}]}}],"weights":[0.5]}})",
@@ -111,11 +112,11 @@ inline GltfBuilder skinnedQuad(const std::vector<std::uint8_t>& png) {
     b.nodes = {R"({"name":"body","mesh":0,"skin":0})", R"({"name":"hip","children":[2]})",
                R"({"name":"spine","translation":[0,1,0]})", R"({"name":"eye","camera":0,"translation":[0,1,5]})"};
     b.skins = {fmt::format(R"({{"joints":[1,2],"inverseBindMatrices":{}}})", bind)};
-    b.animations = {fmt::format(
-        R"({{"name":"bend","channels":[{{"sampler":0,"target":{{"node":2,"path":"rotation"}}}},)"
-        R"({{"sampler":1,"target":{{"node":0,"path":"weights"}}}}],)"
-        R"("samplers":[{{"input":{},"output":{}}},{{"input":{},"output":{},"interpolation":"STEP"}}]}})",
-        times, turns, times, morphs)};
+    b.animations = {
+        fmt::format(R"({{"name":"bend","channels":[{{"sampler":0,"target":{{"node":2,"path":"rotation"}}}},)"
+                    R"({{"sampler":1,"target":{{"node":0,"path":"weights"}}}}],)"
+                    R"("samplers":[{{"input":{},"output":{}}},{{"input":{},"output":{},"interpolation":"STEP"}}]}})",
+                    times, turns, times, morphs)};
     b.cameras = {R"({"type":"perspective","perspective":{"yfov":0.7,"znear":0.05}})"};
     b.scenes = R"([{"nodes":[0,1,3]}])";
     return b;
@@ -124,11 +125,11 @@ inline GltfBuilder skinnedQuad(const std::vector<std::uint8_t>& png) {
 // A 2x2 PNG: red, green / blue, white (8-bit RGB).
 inline const std::vector<std::uint8_t>& smallPng() {
     static const std::vector<std::uint8_t> kPng = {
-        0x89, 0x50, 0x4E, 0x47, 0x0D, 0x0A, 0x1A, 0x0A, 0x00, 0x00, 0x00, 0x0D, 0x49, 0x48, 0x44, 0x52, 0x00, 0x00,
-        0x00, 0x02, 0x00, 0x00, 0x00, 0x02, 0x08, 0x02, 0x00, 0x00, 0x00, 0xFD, 0xD4, 0x9A, 0x73, 0x00, 0x00, 0x00,
-        0x12, 0x49, 0x44, 0x41, 0x54, 0x78, 0xDA, 0x63, 0xF8, 0xCF, 0xC0, 0xC0, 0x00, 0xC2, 0x0C, 0xFF, 0x81, 0x00,
-        0x00, 0x1F, 0xEE, 0x05, 0xFB, 0xF1, 0xAB, 0xBA, 0x77, 0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4E, 0x44, 0xAE,
-        0x42, 0x60, 0x82};
+        0x89, 0x50, 0x4E, 0x47, 0x0D, 0x0A, 0x1A, 0x0A, 0x00, 0x00, 0x00, 0x0D, 0x49, 0x48, 0x44,
+        0x52, 0x00, 0x00, 0x00, 0x02, 0x00, 0x00, 0x00, 0x02, 0x08, 0x02, 0x00, 0x00, 0x00, 0xFD,
+        0xD4, 0x9A, 0x73, 0x00, 0x00, 0x00, 0x12, 0x49, 0x44, 0x41, 0x54, 0x78, 0xDA, 0x63, 0xF8,
+        0xCF, 0xC0, 0xC0, 0x00, 0xC2, 0x0C, 0xFF, 0x81, 0x00, 0x00, 0x1F, 0xEE, 0x05, 0xFB, 0xF1,
+        0xAB, 0xBA, 0x77, 0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4E, 0x44, 0xAE, 0x42, 0x60, 0x82};
     return kPng;
 }
 

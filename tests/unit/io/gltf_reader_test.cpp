@@ -63,8 +63,8 @@ TEST(GltfReader, ReadsOneOfEverything) {
     EXPECT_TRUE(cloth.baseColorTexture.nearest);
     ASSERT_EQ(m.images.size(), 1u);
     EXPECT_EQ(m.images[0].width, 2);
-    EXPECT_EQ(m.images[0].pixels, (std::vector<std::uint8_t>{255, 0, 0, 255, 0, 255, 0, 255,
-                                                             0, 0, 255, 255, 255, 255, 255, 255}));
+    EXPECT_EQ(m.images[0].pixels,
+              (std::vector<std::uint8_t>{255, 0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 255, 255, 255, 255, 255}));
     ASSERT_EQ(m.cameras.size(), 1u);
     EXPECT_EQ(m.cameras[0].verticalFov, 0.7f);
     ASSERT_EQ(m.clips.size(), 1u);
@@ -78,7 +78,7 @@ TEST(GltfReader, ReadsOneOfEverything) {
 TEST(GltfReader, BendsTheQuad) {
     const Model m = read(skinnedQuad(smallPng()).glb());
     Pose pose;
-    poseModel(m, 0, 1, false, pose);   // the upper half turned by 90 degrees about z round (0, 1, 0), morphed by z + 1
+    poseModel(m, 0, 1, false, pose);  // the upper half turned by 90 degrees about z round (0, 1, 0), morphed by z + 1
     const Bounds bounds = posedBounds(m, pose);
     EXPECT_NEAR(bounds.lo.x, -1, 1e-5);
     EXPECT_NEAR(bounds.hi.y, 2, 1e-5);
@@ -112,11 +112,12 @@ TEST(GltfReader, MakesFlatNormals) {
     GltfBuilder b;
     const int positions = b.floats({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, "VEC3", 4);
     const int indices = b.accessor<std::uint32_t>({0, 1, 2, 0, 3, 1}, 5125, "SCALAR", 6);
-    b.meshes = {fmt::format(R"({{"primitives":[{{"attributes":{{"POSITION":{}}},"indices":{}}}]}})", positions, indices)};
+    b.meshes = {
+        fmt::format(R"({{"primitives":[{{"attributes":{{"POSITION":{}}},"indices":{}}}]}})", positions, indices)};
     b.nodes = {R"({"mesh":0})"};
     const Model m = read(b.glb());
     const Primitive& p = m.meshes[0].primitives[0];
-    ASSERT_EQ(p.vertexCount(), 6u);   // the shared edge is doubled
+    ASSERT_EQ(p.vertexCount(), 6u);  // the shared edge is doubled
     EXPECT_EQ(p.normals[0], (Vec3{0, 0, 1}));
     EXPECT_EQ(p.normals[3], (Vec3{0, 1, 0}));
     EXPECT_EQ(p.triangleCount(), 2u);
@@ -127,8 +128,8 @@ TEST(GltfReader, UnrollsStripsAndFans) {
         GltfBuilder b;
         const int positions = b.floats({0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0}, "VEC3", 4);
         const int normals = b.floats({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3", 4);
-        b.meshes = {fmt::format(R"({{"primitives":[{{"attributes":{{"POSITION":{},"NORMAL":{}}},"mode":{}}}]}})", positions,
-                                normals, mode)};
+        b.meshes = {fmt::format(R"({{"primitives":[{{"attributes":{{"POSITION":{},"NORMAL":{}}},"mode":{}}}]}})",
+                                positions, normals, mode)};
         b.nodes = {R"({"mesh":0})"};
         const Primitive p = read(b.glb()).meshes.at(0).primitives.at(0);
         const std::uint32_t first = mode == 5 ? 2 : 0, second = mode == 5 ? 1 : 2;
@@ -152,7 +153,8 @@ TEST(GltfReader, ReadsSparseAndQuantizedAccessors) {
     const int values = b.view(std::vector<float>{0, 5, 0});
     b.accessors[0].pop_back();
     b.accessors[0] += fmt::format(
-        R"(,"sparse":{{"count":1,"indices":{{"bufferView":{},"componentType":5121}},"values":{{"bufferView":{}}}}}}})", at, values);
+        R"(,"sparse":{{"count":1,"indices":{{"bufferView":{},"componentType":5121}},"values":{{"bufferView":{}}}}}}})",
+        at, values);
     EXPECT_EQ(read(b.glb()).meshes[0].primitives[0].positions[2], (Vec3{0, 5, 0}));
 
     GltfBuilder q = triangle();
@@ -160,7 +162,7 @@ TEST(GltfReader, ReadsSparseAndQuantizedAccessors) {
     q.view(std::vector<std::int16_t>{32767, 0, 0, 0, -32768, 0, 0, 0, 16384, 0});
     const Primitive p = read(q.glb()).meshes[0].primitives[0];
     EXPECT_EQ(p.positions[0].x, 1);
-    EXPECT_EQ(p.positions[1].y, -1);   // -32768 / 32767 stops at -1
+    EXPECT_EQ(p.positions[1].y, -1);  // -32768 / 32767 stops at -1
     EXPECT_NEAR(p.positions[2].z, 16384 / 32767.0, 1e-6);
 }
 
@@ -200,13 +202,14 @@ TEST(GltfReader, NormalizesWeightsAndKeepsTheStrongestFour) {
     EXPECT_EQ(p.joints[1], (U16Vec4{4, 0, 1, 2}));
     EXPECT_NEAR(p.weights[1].x, 0.4, 1e-6);
     EXPECT_NEAR(p.weights[1].x + p.weights[1].y + p.weights[1].z + p.weights[1].w, 1, 1e-6);
-    EXPECT_EQ(p.weights[2], (Vec4{1, 0, 0, 0}));   // all zero: the first joint
+    EXPECT_EQ(p.weights[2], (Vec4{1, 0, 0, 0}));  // all zero: the first joint
     EXPECT_TRUE(std::any_of(lines.begin(), lines.end(), [](auto& l) { return l.find("weights are all 0") != l.npos; }));
 }
 
 TEST(GltfReader, OrdersParentsBeforeChildren) {
     GltfBuilder b = triangle();
-    b.nodes = {R"({"name":"leaf","mesh":0})", R"({"name":"middle","children":[0]})", R"({"name":"root","children":[1]})"};
+    b.nodes = {R"({"name":"leaf","mesh":0})", R"({"name":"middle","children":[0]})",
+               R"({"name":"root","children":[1]})"};
     b.scenes = R"([{"nodes":[2]}])";
     const Model m = read(b.glb());
     EXPECT_EQ(m.nodes[0].name, "root");
@@ -242,11 +245,10 @@ TEST(GltfReader, MaterialExtensions) {
     const int picture = b.view(smallPng());
     b.images = {fmt::format(R"({{"bufferView":{}}})", picture), R"({"uri":"never_read.png"})"};
     b.textures = {R"({"source":0})", R"({"source":1})"};
-    b.materials = {
-        R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":0,"extensions":{"KHR_texture_transform":)"
-        R"({"offset":[0.5,0.25],"scale":[2,3],"rotation":1,"texCoord":1}}}},"emissiveFactor":[1,0.5,0],)"
-        R"("extensions":{"KHR_materials_emissive_strength":{"emissiveStrength":4},"KHR_materials_unlit":{},)"
-        R"("KHR_materials_transmission":{"transmissionFactor":0.75},"KHR_materials_ior":{"ior":1.33}}})"};
+    b.materials = {R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":0,"extensions":{"KHR_texture_transform":)"
+                   R"({"offset":[0.5,0.25],"scale":[2,3],"rotation":1,"texCoord":1}}}},"emissiveFactor":[1,0.5,0],)"
+                   R"("extensions":{"KHR_materials_emissive_strength":{"emissiveStrength":4},"KHR_materials_unlit":{},)"
+                   R"("KHR_materials_transmission":{"transmissionFactor":0.75},"KHR_materials_ior":{"ior":1.33}}})"};
     const Model m = read(b.glb());
     const Material& material = m.materials.at(0);
     EXPECT_EQ(material.emission, (Vec3{4, 2, 0}));
@@ -257,7 +259,7 @@ TEST(GltfReader, MaterialExtensions) {
     EXPECT_EQ(material.baseColorTexture.scale, (Vec2{2, 3}));
     EXPECT_EQ(material.baseColorTexture.rotation, 1);
     EXPECT_EQ(material.baseColorTexture.uvSet, 1);
-    EXPECT_EQ(m.images.size(), 1u);   // the image no material uses is not even looked for
+    EXPECT_EQ(m.images.size(), 1u);  // the image no material uses is not even looked for
 }
 
 TEST(GltfReader, SpecularGlossinessBecomesMetalRough) {
@@ -266,8 +268,8 @@ TEST(GltfReader, SpecularGlossinessBecomesMetalRough) {
         b.materials = {R"({"extensions":{"KHR_materials_pbrSpecularGlossiness":{)" + factors + "}}}"};
         return read(b.glb()).materials.at(0);
     };
-    const Material plastic = material(
-        R"("diffuseFactor":[0.5,0.25,0.125,0.5],"specularFactor":[0.04,0.04,0.04],"glossinessFactor":0.25)");
+    const Material plastic =
+        material(R"("diffuseFactor":[0.5,0.25,0.125,0.5],"specularFactor":[0.04,0.04,0.04],"glossinessFactor":0.25)");
     EXPECT_EQ(plastic.metallic, 0);
     EXPECT_EQ(plastic.roughness, 0.75f);
     EXPECT_NEAR(plastic.baseColor.x, 0.5, 1e-4);
@@ -281,8 +283,9 @@ TEST(GltfReader, SpecularGlossinessBecomesMetalRough) {
 TEST(GltfReader, LightsBecomeRadiometric) {
     GltfBuilder b = triangle();
     b.nodes[0] = R"({"mesh":0,"extensions":{"KHR_lights_punctual":{"light":0}}})";
-    b.more = R"(,"extensionsRequired":["KHR_lights_punctual"],"extensions":{"KHR_lights_punctual":{"lights":[)"
-             R"({"type":"spot","intensity":683,"color":[1,0.5,0.25],"range":7,"spot":{"outerConeAngle":0.5,"innerConeAngle":0.25}}]}})";
+    b.more =
+        R"(,"extensionsRequired":["KHR_lights_punctual"],"extensions":{"KHR_lights_punctual":{"lights":[)"
+        R"({"type":"spot","intensity":683,"color":[1,0.5,0.25],"range":7,"spot":{"outerConeAngle":0.5,"innerConeAngle":0.25}}]}})";
     const Model m = read(b.glb());
     ASSERT_EQ(m.lights.size(), 1u);
     EXPECT_EQ(m.nodes[0].light, 0);
@@ -294,7 +297,7 @@ TEST(GltfReader, LightsBecomeRadiometric) {
 
 TEST(GltfReader, AnimationValues) {
     GltfBuilder b = triangle();
-    const int times = b.floats({0, 1, 1, 2}, "SCALAR", 4);   // the second key at 1 s goes
+    const int times = b.floats({0, 1, 1, 2}, "SCALAR", 4);  // the second key at 1 s goes
     const int normalized = b.accessor<std::int16_t>({0, 0, 0, 32767, 0, 0, 32767, 0, 9, 9, 9, 9, 0, 32767, 0, 0}, 5122,
                                                     "VEC4", 4, R"(,"normalized":true)");
     const int two = b.floats({0, 1}, "SCALAR", 2);
@@ -305,7 +308,7 @@ TEST(GltfReader, AnimationValues) {
         R"("samplers":[{{"input":{},"output":{}}},{{"input":{},"output":{},"interpolation":"CUBICSPLINE"}}]}})",
         times, normalized, two, cubic)};
     const Clip clip = read(b.glb()).clips.at(0);
-    ASSERT_EQ(clip.channels.size(), 2u);   // no node; weights of a mesh without targets
+    ASSERT_EQ(clip.channels.size(), 2u);  // no node; weights of a mesh without targets
     EXPECT_EQ(clip.channels[0].times, (std::vector<float>{0, 1, 2}));
     EXPECT_EQ(clip.channels[0].values, (std::vector<float>{0, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0}));
     EXPECT_EQ(clip.channels[1].values.size(), 18u);
@@ -324,11 +327,12 @@ TEST(GltfReader, OptionsTurnScaleAndFlip) {
     EXPECT_EQ(m.nodes[1].parent, 0);
     Pose pose;
     poseModel(m, -1, 0, false, pose);
-    const Bounds bounds = posedBounds(m, pose);   // x -1..1, y 0..2, z 0..0.5 turned so that z is up: y from z, z from -y
+    const Bounds bounds =
+        posedBounds(m, pose);  // x -1..1, y 0..2, z 0..0.5 turned so that z is up: y from z, z from -y
     EXPECT_NEAR(bounds.hi.x, 0.5, 1e-5);
     EXPECT_NEAR(bounds.lo.z, -1, 1e-5);
     EXPECT_NEAR(bounds.hi.z, 0, 1e-5);
-    EXPECT_NEAR(bounds.hi.y, 0.25, 1e-5);   // morphed by the default weight
+    EXPECT_NEAR(bounds.hi.y, 0.25, 1e-5);  // morphed by the default weight
     options = {};
     options.flipWinding = true;
     const Model flipped = read(file, options);
@@ -354,7 +358,7 @@ TEST(GltfReader, ReadsTextWithDataUrisAndExternalFiles) {
         const Result<Model> model = io::readModel(folder / file);
         ASSERT_TRUE(model.has_value()) << model.error().message;
         EXPECT_EQ(model->meshes[0].primitives[0].positions[2], (Vec3{0, 1, 0}));
-        EXPECT_EQ(model->nodes[0].mesh, 0);   // no scenes at all: everything shows
+        EXPECT_EQ(model->nodes[0].mesh, 0);  // no scenes at all: everything shows
     }
     std::filesystem::remove_all(folder);
 }

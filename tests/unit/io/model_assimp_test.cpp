@@ -16,7 +16,7 @@ namespace shoal {
 namespace {
 
 class ModelAssimp : public testing::Test {
- protected:
+protected:
     void SetUp() override {
         folder_ = std::filesystem::temp_directory_path() /
                   (std::string("shoal_model_") + testing::UnitTest::GetInstance()->current_test_info()->name());
@@ -76,7 +76,7 @@ TEST_F(ModelAssimp, ObjWithMaterialAndTexture) {
     const Model m = read(write("box.obj", kBoxObj));
     const ModelCounts counts = count(m);
     EXPECT_EQ(counts.drawnTriangles, 12u);
-    EXPECT_EQ(counts.vertices, 24u);   // edges sharper than the crease angle stay edges
+    EXPECT_EQ(counts.vertices, 24u);  // edges sharper than the crease angle stay edges
     EXPECT_NEAR(boundsOf(m).hi.z, 3, 1e-5);
     ASSERT_EQ(m.images.size(), 1u);
     EXPECT_EQ(m.images[0].width, 2);
@@ -148,9 +148,9 @@ end_header
     ASSERT_EQ(p.colors.size(), p.vertexCount());
     for (std::size_t i = 0; i < p.vertexCount(); ++i)
         if (p.positions[i] == Vec3{0, 0, 1}) {
-            EXPECT_NEAR(p.colors[i].x, 0.5, 0.01);   // 188 is half the light
+            EXPECT_NEAR(p.colors[i].x, 0.5, 0.01);  // 188 is half the light
         }
-    for (std::size_t i = 0; i + 2 < p.indices.size(); i += 3) {   // no rounding off of a tetrahedron's edges
+    for (std::size_t i = 0; i + 2 < p.indices.size(); i += 3) {  // no rounding off of a tetrahedron's edges
         const Vec3 a = p.positions[p.indices[i]], b = p.positions[p.indices[i + 1]], c = p.positions[p.indices[i + 2]];
         const Vec3 n = normalize(cross(b - a, c - a));
         for (std::size_t k = i; k < i + 3; ++k) EXPECT_GT(dot(p.normals[p.indices[k]], n), 0.99f);
@@ -238,7 +238,8 @@ Connections:  {{
 	C: "OO",1000,2000
 	C: "OO",2000,0
 }}
-)", upAxis, upAxis == 2 ? 1 : 2, upAxis == 2 ? -1 : 1, unit);
+)",
+                       upAxis, upAxis == 2 ? 1 : 2, upAxis == 2 ? -1 : 1, unit);
 }
 
 TEST_F(ModelAssimp, FbxUnitAndUpAxis) {
@@ -269,7 +270,8 @@ std::string collada(const char* unit, const char* up) {
 </mesh></geometry></library_geometries>
 <library_visual_scenes><visual_scene id="s"><node id="n"><instance_geometry url="#g"/></node></visual_scene></library_visual_scenes>
 <scene><instance_visual_scene url="#s"/></scene></COLLADA>
-)", unit, up);
+)",
+                       unit, up);
 }
 
 TEST_F(ModelAssimp, ColladaUnitAndUpAxis) {
@@ -285,8 +287,10 @@ TEST_F(ModelAssimp, ColladaUnitAndUpAxis) {
 }
 
 TEST_F(ModelAssimp, BadFilesGiveOneLine) {
-    EXPECT_NE(fault(write("a.ply", "ply\nformat ascii 1.0\nelement vertex 4000000000\nproperty float x\nend_header\n1\n"))
-                  .find("a.ply: PLY element count 4000000000, but only"), std::string::npos);
+    EXPECT_NE(
+        fault(write("a.ply", "ply\nformat ascii 1.0\nelement vertex 4000000000\nproperty float x\nend_header\n1\n"))
+            .find("a.ply: PLY element count 4000000000, but only"),
+        std::string::npos);
     EXPECT_NE(fault(write("b.ply", "no ply")).find("b.ply: not a PLY file"), std::string::npos);
     EXPECT_NE(fault(write("c.obj", "v 0 0 0\nv 1 0 0\n")).find("c.obj: "), std::string::npos);
     EXPECT_NE(fault(write("d.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n")).find("d.obj: "), std::string::npos);

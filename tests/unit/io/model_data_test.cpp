@@ -14,8 +14,8 @@ namespace {
 struct Expected {
     const char* file;
     std::size_t drawn, unique, vertices, joints;
-    std::size_t clips, materials, images, nodes;   // nodes 0: the table does not say
-    float height;                                  // of the walking figure, file units; 0: not a figure
+    std::size_t clips, materials, images, nodes;  // nodes 0: the table does not say
+    float height;                                 // of the walking figure, file units; 0: not a figure
     std::size_t morphTargets = 0;
 };
 
@@ -124,9 +124,8 @@ TEST_P(ModelData, IsAsItsTableSays) {
     EXPECT_NEAR(bounds.center().x, 0, 0.25f * expected.height);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, ModelData, testing::ValuesIn(kModels), [](const auto& info) {
-    return std::filesystem::path(info.param.file).stem().string();
-});
+INSTANTIATE_TEST_SUITE_P(All, ModelData, testing::ValuesIn(kModels),
+                         [](const auto& info) { return std::filesystem::path(info.param.file).stem().string(); });
 
 // The table above misses no model.
 TEST(ModelDataSet, TableHasEveryFile) {
