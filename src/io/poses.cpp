@@ -74,8 +74,8 @@ std::string readHeader(std::string_view line, Table& table) {
     return {};
 }
 
-// worldFromCamera of a camera that looks along `forward` (not zero) with +y up; -z is up for a look straight down, +z for
-// one straight up. From the rotation matrix with the columns right, up, back [Shepperd 1978], in double.
+// worldFromCamera of a camera that looks along `forward` (not zero) with +y up; -z is up for a look straight down, +z
+// for one straight up. From the rotation matrix with the columns right, up, back [Shepperd 1978], in double.
 Quat lookAlong(Vec3 forward) {
     const Vec3 back = normalize(-forward);
     Vec3 right = cross({0, 1, 0}, back);

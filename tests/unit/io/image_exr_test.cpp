@@ -151,8 +151,8 @@ TEST(ImageExr, ShowsWhatTheDisplayWindowShows) {
     ASSERT_TRUE(image) << image.error().message;
     ASSERT_EQ(image->width, 24);
     ASSERT_EQ(image->height, 16);
-    EXPECT_EQ(image->at(0, 0)[1], sampleValue(10, 20, 1));
-    EXPECT_EQ(image->at(20, 10)[2], sampleValue(30, 30, 2));
+    EXPECT_FLOAT_EQ(image->at(0, 0)[1], sampleValue(10, 20, 1));
+    EXPECT_FLOAT_EQ(image->at(20, 10)[2], sampleValue(30, 30, 2));
     EXPECT_EQ(image->at(21, 10)[0], 0);
     EXPECT_EQ(image->at(20, 11)[0], 0);
     sample.data = {{-50, -50}, {-40, -40}};  // nothing of it is seen
@@ -169,7 +169,7 @@ TEST(ImageExr, TakesPartsForLayers) {
     expectSample(*find(*layers, ""), 24, 16, 0);
     const Image* depth = find(*layers, "depth");
     ASSERT_NE(depth, nullptr);
-    EXPECT_EQ(depth->at(3, 4)[0], sampleValue(3, 4, 7));
+    EXPECT_FLOAT_EQ(depth->at(3, 4)[0], sampleValue(3, 4, 7));
 }
 
 TEST(ImageExr, FindsThePictureAmongLayers) {
