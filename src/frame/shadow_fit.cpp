@@ -11,6 +11,7 @@ namespace {
 constexpr int kStepsPerMap = 16;           // a cascade moves by this fraction of its width
 constexpr double kFadeFraction = 0.1;      // part of a slice in which it turns into the next one
 constexpr double kNearestSplit = 0.01;     // slices begin at this fraction of the covered distance, not at the near plane
+constexpr double kWholeSceneGain = 1.4;    // a map of all the scene replaces several when its texels are at most this much larger
 constexpr int kFilterMarginTexels = 12;    // the widest filter of shadow.io.glsl and its bilinear footprint
 
 struct Vec3d {
@@ -41,6 +42,7 @@ SunAxes sunAxes(Vec3 toSun) {
 
 // Steps of a quarter octave: sizes that follow the scene or the view change seldom, and then visibly little.
 double roundedUp(double x) { return std::exp2(std::ceil(std::log2(std::max(x, 1e-3)) * 4 - 1e-6) / 4); }
+double roundedDown(double x) { return x < 1e-3 ? 0 : std::exp2(std::floor(std::log2(x) * 4 + 1e-6) / 4); }
 
 struct SceneBox {
     Vec3d lo{1e30, 1e30, 1e30}, hi{-1e30, -1e30, -1e30};
@@ -169,9 +171,9 @@ CascadeFit fitCascades(const light::View& view, Vec3 toSun, const Bounds& bounds
         fit.sunFromWorld(r, 2) = float(rows[r].z * scale), fit.sunFromWorld(r, 3) = r == 2 ? float(-bottom * scale) : 0.0f;
     }
 
-    // A quarter octave up, hence seldom another size while the eye moves.
+    // In steps of a quarter octave, hence seldom another size while the eye moves.
     const double to = std::min(double(setup.sunDistance), roundedUp(std::max(farthest, double(view.nearZ) * 2)));
-    const double from = view.orthographic ? std::min(std::max(nearest, 0.0), 0.5 * to) : 0.0;
+    const double from = std::min(roundedDown(nearest), 0.9 * to);
     const FrustumEdges edges = frustumEdges(view);
     const auto ends = splitDepths(from, to, setup.cascadeCount, setup.splitBlend);
     const double paddedShare = (1 - 1.0 / kStepsPerMap) * (1 - 2.0 * kFilterMarginTexels / setup.resolution);
@@ -182,7 +184,7 @@ CascadeFit fitCascades(const light::View& view, Vec3 toSun, const Bounds& bounds
         Cascade& cascade = fit.cascades[fit.count++];
         const Sphere sphere = sliceSphere(view, edges, i == 0 ? from : ends[i] - kFadeFraction * (ends[i] - ends[i - 1]), ends[i + 1]);
         const double sphereHalf = sphere.radius / paddedShare;
-        const bool wholeScene = sceneHalf <= sphereHalf;
+        const bool wholeScene = sceneHalf <= kWholeSceneGain * sphereHalf;
         const double half = wholeScene ? sceneHalf : sphereHalf;
         Vec3d center = axes.project(sphere.center);
         if (wholeScene) center = {0.5 * (inSun.lo.x + inSun.hi.x), 0.5 * (inSun.lo.y + inSun.hi.y), 0};

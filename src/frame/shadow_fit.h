@@ -38,8 +38,8 @@ struct CascadeFit {
 
 // Cascades for what `view` sees of a scene inside `bounds` (not empty). Each one holds the bounding sphere of its slice of the view, so
 // that its size does not change when the eye turns; it moves in steps of a sixteenth of its width, which are whole texels, so that a
-// static scene's shadows do not crawl and a cascade often need not be drawn again. A cascade never is larger than the scene; the first
-// that holds all of it is the last.
+// static scene's shadows do not crawl and a cascade often need not be drawn again. Where one map of the
+// whole scene does nearly as well as a cascade, it takes the place of that cascade and all after it.
 CascadeFit fitCascades(const light::View& view, Vec3 toSun, const Bounds& bounds, const CascadeFitSetup& setup);
 
 // What a spot sees: reversed z, as wide as its cone.
