@@ -83,7 +83,7 @@ Result<std::vector<Row>> frameRow(const Settings& settings, const char* id, cons
     request.width = kWidth;
     request.height = kHeight;
     request.antialiasing = "temporal";
-    const Bounds bounds = stage.pipeline->content().bounds;
+    const Bounds bounds = stage.pipeline->content().focus;
     const auto drawFrame = [&](int i) -> Result<void> {
         const float angle = 0.6f + 0.01f * float(i);
         const Vec3 toEye{std::cos(0.35f) * std::sin(angle), std::sin(0.35f), std::cos(0.35f) * std::cos(angle)};

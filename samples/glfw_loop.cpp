@@ -63,7 +63,7 @@ int run(GLFWwindow* window, const char* scene, int frameCount) {
     if (auto opened = (*pipeline)->open(scene); !opened) return fail(opened.error());
 
     Orbit orbit;
-    const shoal::Bounds bounds = (*pipeline)->content().bounds;
+    const shoal::Bounds bounds = (*pipeline)->content().focus;
     if (!bounds.empty()) orbit.center = bounds.center(), orbit.distance = 2.4f * bounds.radius();
     glfwSetWindowUserPointer(window, &orbit);
     glfwSetScrollCallback(window, onWheel);

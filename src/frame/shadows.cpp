@@ -94,12 +94,21 @@ NeededView neededView(State::Slot& slot, NeededView::Purpose purpose, const ligh
     return needed;
 }
 
+// params.sunDistance, or as far as the scene reaches: all of it seen from outside, 150 m seen from within.
+float sunDistance(const Context& context, const ShadowParams& params, const Bounds& bounds) {
+    if (params.sunDistance > 0) return params.sunDistance;
+    constexpr float kFromWithin = 150, kFromOutside = 2.5f;
+    const float away = length(bounds.center() - context.view.eye);
+    return std::max(std::min(away + bounds.radius(), std::max(kFromWithin, kFromOutside * away)), 4 * context.view.nearZ);
+}
+
 void prepareSun(State& s, const Context& context, const ShadowParams& params, const light::Sun* sun, const Bounds& bounds,
                 ShadowBlock& block) {
     const bool casts = sun && sun->castsShadow && !bounds.empty() && length(sun->toSun) > 0;
     int used = 0;
     if (casts) {
-        const CascadeFitSetup setup{s.setup.sunResolution, s.setup.cascadeCount, params.sunDistance, params.splitBlend};
+        const CascadeFitSetup setup{s.setup.sunResolution, s.setup.cascadeCount, sunDistance(context, params, bounds),
+                                     params.splitBlend};
         const CascadeFit fit = fitCascades(context.view, sun->toSun, bounds, setup);
         float ends[kMaxCascades] = {}, fades[kMaxCascades] = {};
         for (; used < fit.count; ++used) {

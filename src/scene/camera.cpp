@@ -168,7 +168,7 @@ light::Camera cameraAt(const Scene& scene, const Content& content, float time, f
         camera.nearZ = spec.near;
         camera.heightM = spec.heightM;
         break;
-    case CameraKind::fitted: camera = fittedCamera(spec, content.bounds, aspect); break;
+    case CameraKind::fitted: camera = fittedCamera(spec, content.focus, aspect); break;
     }
     if (spec.projection == "orthographic") camera.projection = light::Camera::Projection::orthographic;
     if (scene.intrinsics) {

@@ -235,21 +235,52 @@ Result<void> readPoses(const Scene& scene, Content& content) {
     return {};
 }
 
-Bounds contentBounds(const Content& content) {
+// One mesh of one instance as a box, and how much there is in it.
+struct Box {
     Bounds bounds;
+    std::size_t vertexCount = 0;
+};
+
+std::vector<Box> boxesOf(const Instance& instance, const Model& model) {
+    Pose pose;
+    poseModel(model, instance.clip, instance.startTime, instance.loop, pose);
+    const Mat4 worldFromModel = transformAt(instance, 0);
+    std::vector<Box> boxes;
+    Box skinned{transformBounds(worldFromModel, posedBounds(model, pose)), 0};
+    for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+        if (model.nodes[i].mesh < 0) continue;
+        for (const Primitive& primitive : model.meshes[std::size_t(model.nodes[i].mesh)].primitives) {
+            // Skinned or morphing: the model's posed bounds stand for all of them.
+            if (model.nodes[i].skin >= 0 || !primitive.morphTargets.empty()) skinned.vertexCount += primitive.vertexCount();
+            else boxes.push_back({transformBounds(worldFromModel * pose.modelFromNode[i], primitive.bounds), primitive.vertexCount()});
+        }
+    }
+    if (skinned.vertexCount > 0) boxes.push_back(skinned);
+    return boxes;
+}
+
+// Bounds of all there is, and of what is worth looking at: without the few far-reaching boxes (ground, sea, sky dome) that together
+// have less than 2 % of the vertices.
+void measure(Content& content) {
+    std::vector<Box> boxes;
+    std::size_t total = 0;
     for (const Instance& instance : content.instances) {
         if (!instance.visible) continue;
-        const Model& model = content.models[std::size_t(instance.model)];
-        Pose pose;
-        poseModel(model, instance.clip, instance.startTime, instance.loop, pose);
-        bounds.add(transformBounds(transformAt(instance, 0), posedBounds(model, pose)));
+        for (const Box& box : boxesOf(instance, content.models[std::size_t(instance.model)])) {
+            boxes.push_back(box);
+            content.bounds.add(box.bounds);
+            total += box.vertexCount;
+        }
     }
-    return bounds;
+    std::stable_sort(boxes.begin(), boxes.end(), [](const Box& a, const Box& b) { return a.bounds.radius() > b.bounds.radius(); });
+    std::size_t first = 0, dropped = 0;
+    while (first + 1 < boxes.size() && 50 * (dropped + boxes[first].vertexCount) < total) dropped += boxes[first++].vertexCount;
+    for (std::size_t i = first; i < boxes.size(); ++i) content.focus.add(boxes[i].bounds);
 }
 
 // Ground under a bare model: a disc that fades into the environment would need blending; a wide plane takes the shadow.
 Result<void> addGround(Content& content) {
-    const Bounds bounds = contentBounds(content);
+    const Bounds bounds = content.bounds;
     if (bounds.empty()) return {};
     const float size = std::max(40.0f * bounds.radius(), 1.0f);
     FieldValue value;
@@ -332,7 +363,7 @@ Result<Content> loadContent(const Scene& scene, const LogSink& log) {
     for (const ShapeEntry& entry : scene.shapes) addShapeInstance(entry, int(shape++), content);
     addModelLights(content);
     SHOAL_TRY(readPoses(scene, content));
-    content.bounds = contentBounds(content);
+    measure(content);
     if (scene.bareModel) SHOAL_TRY(addGround(content));
     if (scene.cameraKind == CameraKind::modelCamera) SHOAL_TRY(checkModelCamera(scene, content));
     return content;

@@ -11,12 +11,12 @@
 namespace shoal::frame {
 
 struct PostParams {
-    std::string exposureMode = "fixed";   // "fixed" or "automatic"
+    std::string exposureMode = "automatic";   // "fixed" or "automatic"
     float exposureEv = 0;                 // stops: radiance times 2^EV before the curve
     float adaptation = 1;                 // automatic: seconds to adapt by 63 %; 0: at once
     std::string toneCurve = "agx";        // "agx", "plain" (sRGB, clipped), "none" (linear, for tests)
     float bloom = 0;                      // 0..1 fraction of light scattered in the lens
-    float saturation = 1, contrast = 1;   // looks on top of the curve
+    float saturation = 1.2f, contrast = 1.2f;   // looks on top of the curve
 };
 template <class Params, class Visitor>
     requires std::is_same_v<std::remove_const_t<Params>, PostParams>

@@ -19,7 +19,7 @@ struct ShadowSetup {
 };
 
 struct ShadowParams {
-    float sunDistance = 150;      // metres from the eye that cascades cover; beyond it there is light
+    float sunDistance = 0;        // metres from the eye that cascades cover; beyond it there is light; 0: as far as the scene needs
     float splitBlend = 0.75f;     // 0: equal splits, 1: logarithmic
     float softness = 1;           // times the penumbra that the sun's disc makes
     float normalBias = 1.5f;      // texels along the normal
@@ -27,7 +27,7 @@ struct ShadowParams {
 template <class Params, class Visitor>
     requires std::is_same_v<std::remove_const_t<Params>, ShadowParams>
 void visit(Params& p, Visitor&& v) {
-    v(p.sunDistance, Field{"sunDistance", "m", 1, 10000, "how far from the eye the sun casts shadows"});
+    v(p.sunDistance, Field{"sunDistance", "m", 0, 10000, "how far from the eye the sun casts shadows; 0: as far as the scene needs"});
     v(p.splitBlend, Field{"splitBlend", "", 0, 1, "0 spaces the cascades evenly, 1 logarithmically"});
     v(p.softness, Field{"softness", "", 0, 20, "widens the penumbra: 1 is the sun's disc"});
     v(p.normalBias, Field{"normalBias", "texels", 0, 10, "moves the receiver along its normal"});

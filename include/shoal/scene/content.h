@@ -43,6 +43,7 @@ struct Content {
     std::vector<light::PunctualLight> lights;        // the scene's and the models' own
     std::vector<CameraPoseKey> poses;                // of CameraKind::poses
     Bounds bounds;                                   // of all visible instances at time 0, world
+    Bounds focus;                                    // the same without wide, empty things: ground, sea, sky dome
 };
 
 // Reads and makes everything, in parallel. Errors name the scene's line and the file.

@@ -172,6 +172,9 @@ void addRoof(Hall& hall, Dice& dice) {
                 addBeam(steel, lerp(eave, ridge, 0.42f) + offset, lerp(eave, ridge, 0.74f) + offset, 0.05f, 0.08f, 0.006f, normal);
             }
         }
+        sheet.color = {0.45f, 0.46f, 0.47f};   // the ridge's cap
+        const Vec3 cap = normal * 0.1f, down = normalize(eave - ridge) * 0.3f;
+        addBeam(sheet, ridge + down * 0.5f + cap + Vec3{0, 0, -hall.halfLength}, ridge + down * 0.5f + cap + Vec3{0, 0, hall.halfLength}, 0.36f, 0.03f, 0.008f, normal);
         steel.color = {0.13f, 0.22f, 0.26f};   // purlins
         const int purlins = std::max(2, int(slope / 1.6f));
         for (int i = 0; i <= purlins; ++i) {

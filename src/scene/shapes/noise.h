@@ -24,13 +24,20 @@ inline float smoothstep(float from, float to, float x) {
     return t * t * (3 - 2 * t);
 }
 inline int wrapped(int i, int period) {
+    if (i >= 0 && i < period) return i;   // nearly always; division is what noise would otherwise spend its time on
     const int r = i % period;
     return r < 0 ? r + period : r;
 }
 
+// std::floor without a call.
+inline float floorOf(float x) {
+    const float t = float(int(x));
+    return t > x ? t - 1 : t;
+}
+
 // Gradient noise [Perlin 2002] in about [-1, 1]; repeats every `period` lattice cells.
 inline float noise(float x, float y, std::uint32_t seed, int periodX = 1 << 20, int periodY = 1 << 20) {
-    const float fx = std::floor(x), fy = std::floor(y);
+    const float fx = floorOf(x), fy = floorOf(y);
     const int x0 = wrapped(int(fx), periodX), y0 = wrapped(int(fy), periodY);
     const int x1 = wrapped(x0 + 1, periodX), y1 = wrapped(y0 + 1, periodY);
     const float tx = x - fx, ty = y - fy;
@@ -56,7 +63,7 @@ inline float fractal(float x, float y, int octaves, std::uint32_t seed, int peri
 }
 
 inline float noise3(Vec3 p, std::uint32_t seed) {
-    const float fx = std::floor(p.x), fy = std::floor(p.y), fz = std::floor(p.z);
+    const float fx = floorOf(p.x), fy = floorOf(p.y), fz = floorOf(p.z);
     const float tx = p.x - fx, ty = p.y - fy, tz = p.z - fz;
     const auto gradient = [&](int dx, int dy, int dz) {
         const std::uint32_t h = latticeHash(std::uint32_t(int(fx) + dx), std::uint32_t(int(fy) + dy),
@@ -84,7 +91,7 @@ struct Cell {
     std::uint32_t id;
 };
 inline Cell cellNoise(float x, float y, std::uint32_t seed, int periodX, int periodY) {
-    const int cx = int(std::floor(x)), cy = int(std::floor(y));
+    const int cx = int(floorOf(x)), cy = int(floorOf(y));
     Cell best{1e9f, 0};
     for (int dy = -1; dy <= 1; ++dy)
         for (int dx = -1; dx <= 1; ++dx) {

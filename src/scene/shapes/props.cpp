@@ -3,8 +3,8 @@
 namespace shoal::scene::shapes {
 
 Vec3 woodTint(Dice& dice, float spread) {
-    const float value = 1 + spread * (dice.unit() - 0.55f), grey = spread * 0.5f * dice.unit();
-    return lerp(Vec3{1, 1, 1} * value, Vec3{0.78f, 0.86f, 0.95f} * value, grey);
+    const float value = 1 + 1.3f * spread * (dice.unit() - 0.55f), grey = std::min(1.0f, 1.6f * spread * dice.unit());
+    return lerp(Vec3{1.04f, 1, 0.94f} * value, Vec3{0.80f, 0.94f, 1.12f} * value, grey);
 }
 
 Blob makeBoulder(std::uint32_t seed, int level, float moss) {

@@ -9,10 +9,11 @@ namespace {
 using namespace shapes;
 
 constexpr float kCoping = 0.3f, kCopingDepth = 0.75f, kOverhang = 0.06f, kStairWidth = 1.1f;
+constexpr float kStairsStart = 0.12f;   // of the length, from the middle
 
 // Stones darken and turn green towards the water, and are dark below it.
 Vec3 stoneTint(float y, Dice& dice) {
-    const Vec3 dry = lerp(Vec3{0.92f, 0.86f, 0.78f}, Vec3{0.72f, 0.73f, 0.74f}, dice.unit()) * dice.range(0.75f, 1.1f);
+    const Vec3 dry = lerp(Vec3{0.95f, 0.84f, 0.70f}, Vec3{0.70f, 0.72f, 0.74f}, dice.unit()) * dice.range(0.62f, 1.1f);
     const Vec3 wet = Vec3{0.36f, 0.40f, 0.30f} * dice.range(0.8f, 1.15f);
     return lerp(wet, dry, smoothstep(0.0f, 0.55f, y + dice.range(-0.1f, 0.1f)));
 }
@@ -70,7 +71,7 @@ void addPavement(ModelBuilder& builder, const QuayShape& shape, int stone, int m
 void addStairs(Part& stone, const QuayShape& shape, Dice& dice) {
     const float rise = 0.19f, run = 0.3f;
     const int steps = std::max(1, int((shape.height + std::min(0.5f, shape.waterDepth)) / rise));
-    const float start = shape.length * 0.12f;
+    const float start = shape.length * kStairsStart;
     for (int i = 0; i < steps; ++i) {
         const float top = shape.height - rise * float(i + 1), bottom = std::max(-shape.waterDepth, -2.0f - rise * float(i));
         if (top - bottom < 0.05f) break;
@@ -86,7 +87,8 @@ void addFittings(ModelBuilder& builder, const Palette& palette, const QuayShape&
     for (int i = 0; i < shape.bollards; ++i) {
         const float x = shape.length * ((float(i) + 0.5f) / float(shape.bollards) - 0.5f);
         addBollard(builder, palette, Frame{}.at({x, shape.height, -0.32f}));
-        // A rubber fender below each.
+        // A rubber fender beside each, but not over the steps.
+        if (shape.stairs && x + 1.1f > shape.length * kStairsStart && x + 0.3f < shape.length * kStairsStart + 3) continue;
         Part& rubber = builder.part(palette.paint);
         rubber.color = {0.018f, 0.018f, 0.019f};
         const Frame hang = Frame{}.at({x + 0.7f, shape.height - 0.75f, 0.13f}).tipped({1, 0, 0}, kPi / 2);

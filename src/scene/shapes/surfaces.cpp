@@ -68,10 +68,10 @@ Surface makeWood(std::uint32_t seed) {
         const float fibre = fractal(u * 6, v * 96, 2, seed + 2, 6, 96);
         const float crack = smoothstep(0.52f, 0.75f, noise(u * 5, v * 70, seed + 5, 5, 70));
         const float stain = fractal(u * 3, v * 5, 3, seed + 7, 3, 5);
-        const float value = 0.62f + 0.16f * rings + 0.15f * fibre + 0.16f * stain;
-        const Vec3 light{0.62f, 0.47f, 0.33f}, dark{0.26f, 0.18f, 0.12f};
+        const float value = 0.42f + 0.24f * rings + 0.3f * fibre + 0.3f * stain;
+        const Vec3 light{0.40f, 0.285f, 0.185f}, dark{0.13f, 0.085f, 0.052f};
         Texel t;
-        t.albedo = lerp(dark, light, std::clamp(value, 0.0f, 1.2f)) * (1 - 0.65f * crack);
+        t.albedo = lerp(dark, light, std::clamp(value, 0.0f, 1.2f)) * (1 - 0.75f * crack);
         t.height = 0.0006f * rings + 0.0007f * fibre - 0.0022f * crack;
         t.roughness = std::clamp(0.72f + 0.12f * fibre - 0.1f * stain + 0.2f * crack, 0.4f, 1.0f);
         return t;
@@ -86,7 +86,7 @@ Surface makeStone(std::uint32_t seed) {
         const Cell pit = cellNoise(u * 24, v * 24, seed + 17, 24, 24);
         const float hole = (pit.id & 7) < 3 ? 1 - smoothstep(0.06f, 0.2f, pit.distance) : 0;
         const float vein = 1 - smoothstep(0.0f, 0.05f, std::abs(fractal(u * 2, v * 2, 3, seed + 21, 2, 2) - 0.05f));
-        const float value = 0.52f + 0.12f * blotch + 0.05f * grain + 0.06f * chisel - 0.16f * hole - 0.05f * vein;
+        const float value = 0.40f + 0.12f * blotch + 0.05f * grain + 0.06f * chisel - 0.16f * hole - 0.05f * vein;
         Texel t;
         t.albedo = Vec3{1.0f, 0.965f, 0.9f + 0.05f * blotch} * std::clamp(value, 0.05f, 0.9f);
         t.height = 0.006f * chisel + 0.0008f * grain - 0.005f * hole + 0.006f * blotch;
@@ -97,14 +97,14 @@ Surface makeStone(std::uint32_t seed) {
 
 Surface makeConcrete(std::uint32_t seed) {
     return makeSurface(512, 3.0f, [&](float u, float v) {
-        const float cloud = fractal(u * 3, v * 3, 5, seed, 3, 3);
+        const float cloud = fractal(u * 3, v * 3, 4, seed, 3, 3);
         const float grain = noise(u * 170, v * 170, seed + 9, 170, 170);
         const Cell pore = cellNoise(u * 48, v * 48, seed + 17, 48, 48);
         const float hole = (pore.id & 15) < 3 ? 1 - smoothstep(0.05f, 0.14f, pore.distance) : 0;
-        const float wander = fractal(u * 2, v * 2, 5, seed + 31, 2, 2);
+        const float wander = fractal(u * 2, v * 2, 4, seed + 31, 2, 2);
         const float crack = (1 - smoothstep(0.0f, 0.008f, std::abs(wander))) * smoothstep(0.05f, 0.3f, cloud);
         const float stain = smoothstep(0.1f, 0.6f, fractal(u * 2, v * 2, 3, seed + 41, 2, 2));
-        const float value = 0.44f + 0.06f * cloud + 0.025f * grain - 0.12f * hole - 0.16f * crack - 0.08f * stain;
+        const float value = 0.36f + 0.06f * cloud + 0.025f * grain - 0.12f * hole - 0.16f * crack - 0.08f * stain;
         Texel t;
         t.albedo = Vec3{1.0f, 0.985f, 0.95f} * std::clamp(value, 0.05f, 0.9f);
         t.height = 0.003f * cloud + 0.0006f * grain - 0.004f * hole - 0.004f * crack;
@@ -134,7 +134,7 @@ Surface makeSand(std::uint32_t seed) {
 
 Surface makeGrit(std::uint32_t seed) {
     return makeSurface(512, 3.0f, [&](float u, float v) {
-        const float patch = fractal(u * 4, v * 4, 5, seed, 4, 4);
+        const float patch = fractal(u * 4, v * 4, 4, seed, 4, 4);
         const float fine = noise(u * 150, v * 150, seed + 7, 150, 150);
         const Cell lump = cellNoise(u * 28, v * 28, seed + 3, 28, 28);
         const float bump = 1 - smoothstep(0.1f, 0.55f, lump.distance);

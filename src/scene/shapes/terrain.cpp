@@ -41,8 +41,8 @@ private:
         const float scale = 4 / shape_.size;
         const float coast = 0.16f * fractal(x * scale, z * scale, 3, shape_.seed + 55);
         const float from = std::sqrt(x * x + z * z) / (0.5f * shape_.size) + coast;
-        const float inland = 1 - smoothstep(0.25f, 0.92f, from);
-        const float raised = (shape_.height * std::max(0.0f, land) + shape_.seaDepth * 0.9f) * inland * inland * 1.35f - shape_.seaDepth;
+        const float dome = std::pow(1 - smoothstep(0.0f, 0.95f, from), 1.3f);
+        const float raised = shape_.height * (1.45f * std::max(0.0f, land) * dome - 0.07f) - shape_.seaDepth * smoothstep(0.5f, 1.0f, from);
         const float h = std::min(raised, shape_.height);
         return h * (0.3f + 0.7f * smoothstep(0.0f, 2.2f, std::abs(h)));
     }
@@ -124,10 +124,10 @@ void scatterRocks(ModelBuilder& builder, const TerrainShape& shape, const Ground
     Scatter scatter(builder, "rock", nodeCount);
     for (int i = 0; i < shape.rocks; ++i) {
         const float x = dice.range(-0.48f, 0.48f) * shape.size, z = dice.range(-0.48f, 0.48f) * shape.size;
-        const float radius = shape.size / 120 * 0.25f * std::pow(10.0f, dice.unit() * dice.unit());
+        const float radius = shape.size / 120 * 0.25f * std::pow(7.0f, dice.unit() * dice.unit());
         const Quat turn = uprightTurn(dice, 0.4f);
         const std::uint32_t kind = std::uint32_t(i % kBoulderKinds);
-        scatter.place(kind, {x, ground.height(x, z) + 0.15f * radius, z}, turn, radius,
+        scatter.place(kind, {x, ground.height(x, z) - 0.1f * radius, z}, turn, radius,
                       [&] { addBlob(builder.part(stone), {}, makeBoulder(shape.seed * 13 + kind, 3, shape.island ? 0.15f : 0.4f)); });
     }
 }
@@ -176,7 +176,7 @@ Result<Model> makeRocks(const RocksShape& shape) {
     SHOAL_TRY(validate(shape));
     if (shape.largest < shape.smallest) return badInput("largest: found less than smallest, expected at least as much");
     ModelBuilder builder("rocks");
-    const int stone = builder.addMaterial("rock", min(shape.color * 1.9f, Vec3{1, 1, 1}), makeStone(shape.seed));
+    const int stone = builder.addMaterial("rock", min(shape.color * 2.0f, Vec3{1, 1, 1}), makeStone(shape.seed));
     Dice dice(shape.seed * 29 + 3);
     struct Placed {
         Vec2 at;
