@@ -30,6 +30,7 @@ constexpr std::string_view kExtensions[] = {".obj", ".ply",  ".stl", ".fbx",    
 constexpr float kCreaseDegrees = 40;  // sharper edges stay edges where the file has no normals
 constexpr float kCoordinateLimit = 1e18f;
 constexpr double kDefaultTicksPerSecond = 25;
+constexpr const char* kNoTriangles = "has no triangles (points and lines are not drawn)";
 
 struct ReadError {
     std::string message;
@@ -319,6 +320,13 @@ Axes axesOf(const aiScene& scene, const std::string& extension, const ModelReadO
     return axes;
 }
 
+// assimp's ways to say that only points or lines were left.
+std::string plainer(const std::string& message) {
+    for (const char* words : {"contains no faces", "No meshes remaining", "At least one mesh must be there"})
+        if (message.find(words) != std::string::npos) return kNoTriangles;
+    return message;
+}
+
 Model readScene(const std::filesystem::path& path, const std::string& extension, const ModelReadOptions& options) {
     Assimp::Importer importer;
     importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
@@ -327,8 +335,8 @@ Model readScene(const std::filesystem::path& path, const std::string& extension,
     const unsigned steps = aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_JoinIdenticalVertices |
                            aiProcess_LimitBoneWeights | aiProcess_FlipUVs | aiProcess_ValidateDataStructure;
     const aiScene* scene = importer.ReadFile(path.string(), steps);
-    if (!scene || !scene->mRootNode) throw ReadError{importer.GetErrorString()};
-    if (scene->mNumMeshes == 0 && scene->mNumAnimations == 0) throw ReadError{"has no triangles"};
+    if (!scene || !scene->mRootNode) throw ReadError{plainer(importer.GetErrorString())};
+    if (scene->mNumMeshes == 0 && scene->mNumAnimations == 0) throw ReadError{kNoTriangles};
     Model model = SceneReader(*scene, path, options).read();
     const Axes axes = axesOf(*scene, extension, options);
     applyAxes(model, axes.rotation, axes.scale);

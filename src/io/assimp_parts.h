@@ -13,8 +13,8 @@ struct aiScene;
 
 namespace shoal::io {
 
-// What a PLY's or binary STL's header says that its size cannot hold; "" where nothing is wrong. `extension` in lower
-// case with its dot.
+// What a PLY's, OFF's or binary STL's header says that its size cannot hold; "" where nothing is wrong. `extension` in
+// lower case with its dot.
 std::string headerFault(const std::string& extension, std::span<const std::byte> bytes);
 
 // Materials, and the images they use: embedded ones or those found beside `path`. What cannot be found or decoded is

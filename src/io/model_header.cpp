@@ -1,4 +1,4 @@
-// Element counts in a PLY header and the triangle count of a binary STL against the file's size.
+// Element counts in PLY and OFF headers and the triangle count of a binary STL against the file's size.
 #include <charconv>
 #include <cstdint>
 #include <cstring>
@@ -9,6 +9,26 @@
 #include "io/assimp_parts.h"
 
 namespace shoal::io {
+
+namespace {
+
+// "OFF", then the counts of vertices, faces and edges; '#' starts a comment.
+std::string offFault(std::string_view content) {
+    std::size_t at = content.find_first_of(" \t\r\n");
+    for (const char* what : {"vertices", "faces"}) {
+        while (at < content.size() && (content[at] <= ' ' || content[at] == '#'))
+            at = content[at] == '#' ? content.find('\n', at) : at + 1;
+        if (at >= content.size()) return "OFF header without counts";
+        std::uint64_t count = 0;
+        const auto parsed = std::from_chars(content.data() + at, content.data() + content.size(), count);
+        if (parsed.ec != std::errc() || count > content.size())
+            return fmt::format("OFF count of {} is no number below the file's {} bytes", what, content.size());
+        at = std::size_t(parsed.ptr - content.data());
+    }
+    return {};
+}
+
+}  // namespace
 
 std::string headerFault(const std::string& extension, std::span<const std::byte> bytes) {
     const std::string_view content(reinterpret_cast<const char*>(bytes.data()), bytes.size());
@@ -31,6 +51,7 @@ std::string headerFault(const std::string& extension, std::span<const std::byte>
                                    bytes.size() - end);
         }
     }
+    if (extension == ".off") return offFault(content);
     if (extension == ".stl" && !content.starts_with("solid")) {
         std::uint32_t count = 0;
         if (bytes.size() < 84) return fmt::format("truncated: {} bytes, too short for a binary STL", bytes.size());

@@ -286,16 +286,46 @@ TEST_F(ModelAssimp, ColladaUnitAndUpAxis) {
     EXPECT_NEAR(forced.hi.z, 10, 1e-4);
 }
 
+// One second of a node that moves by 4 along x, and back to the node tree it hangs in.
+TEST_F(ModelAssimp, ColladaAnimation) {
+    const auto source = [](const char* id, const char* name, int count, int stride, const char* values) {
+        return fmt::format(
+            R"(<source id="{0}"><float_array id="{0}a" count="{1}">{2}</float_array><technique_common>)"
+            R"(<accessor source="#{0}a" count="{3}" stride="{4}"><param name="{5}" type="float"/></accessor>)"
+            R"(</technique_common></source>)",
+            id, count * stride, values, count, stride, name);
+    };
+    std::string text = collada("1", "Y_UP");
+    text = test::replaced(text, R"(<node id="n">)", R"(<node id="n" sid="n"><translate sid="t">0 0 0</translate>)");
+    text = test::replaced(
+        text, "<library_visual_scenes>",
+        "<library_animations><animation id=\"a\">" + source("time", "TIME", 2, 1, "0 1") +
+            source("move", "X", 2, 1, "0 4") +
+            R"(<source id="how"><Name_array id="howa" count="2">LINEAR LINEAR</Name_array><technique_common>)"
+            R"(<accessor source="#howa" count="2" stride="1"><param name="INTERPOLATION" type="name"/></accessor>)"
+            R"(</technique_common></source><sampler id="s1"><input semantic="INPUT" source="#time"/>)"
+            R"(<input semantic="OUTPUT" source="#move"/><input semantic="INTERPOLATION" source="#how"/></sampler>)"
+            R"(<channel source="#s1" target="n/t.X"/></animation></library_animations><library_visual_scenes>)");
+    const Model m = read(write("move.dae", text));
+    ASSERT_EQ(m.clips.size(), 1u);
+    EXPECT_NEAR(m.clips[0].duration, 1, 1e-4);
+    Pose pose;
+    poseModel(m, 0, 0.5f, false, pose);
+    EXPECT_NEAR(posedBounds(m, pose).lo.x, 2, 1e-3);
+}
+
 TEST_F(ModelAssimp, BadFilesGiveOneLine) {
     EXPECT_NE(
         fault(write("a.ply", "ply\nformat ascii 1.0\nelement vertex 4000000000\nproperty float x\nend_header\n1\n"))
             .find("a.ply: PLY element count 4000000000, but only"),
         std::string::npos);
     EXPECT_NE(fault(write("b.ply", "no ply")).find("b.ply: not a PLY file"), std::string::npos);
-    EXPECT_NE(fault(write("c.obj", "v 0 0 0\nv 1 0 0\n")).find("c.obj: "), std::string::npos);
+    EXPECT_NE(fault(write("c.obj", "v 0 0 0\nv 1 0 0\np 1 2\n")).find("c.obj: has no triangles"), std::string::npos);
+    EXPECT_NE(fault(write("f.off", "OFF\n# many\n3 2000000000 0\n")).find("f.off: OFF count of faces"),
+              std::string::npos);
     EXPECT_NE(fault(write("d.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n")).find("d.obj: "), std::string::npos);
     EXPECT_NE(fault(write("e.fbx", "garbage")).find("e.fbx: "), std::string::npos);
-    for (const char* name : {"a.ply", "b.ply", "c.obj", "d.obj", "e.fbx"})
+    for (const char* name : {"a.ply", "b.ply", "c.obj", "d.obj", "e.fbx", "f.off"})
         EXPECT_EQ(fault(folder_ / name).find('\n'), std::string::npos);
 }
 
