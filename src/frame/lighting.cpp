@@ -16,12 +16,25 @@ namespace {
 
 constexpr std::size_t kFirstLights = 64;   // room made at creation; more lights grow it
 
+// What shade.frag is compiled for.
+enum Variant { kNoSun = 1, kNoLocalLights = 2, kSunIrradiance = 4, kTerms = 8 };
+constexpr int kShadeVariants = 16;
+
 gl::Texture makeTarget(gl::Device& device, gl::Enum format, int width, int height, const char* label) {
     gl::TextureDesc desc;
     desc.format = format;
     desc.width = width, desc.height = height;
     desc.label = label;
     return gl::Texture::create(device, desc);
+}
+
+Result<const gl::Program*> shadeProgram(gl::Device& device, int variant) {
+    const std::pair<Variant, const char*> names[] = {
+        {kNoSun, "NO_SUN"}, {kNoLocalLights, "NO_LOCAL_LIGHTS"}, {kSunIrradiance, "SUN_IRRADIANCE"}, {kTerms, "TERMS"}};
+    std::vector<std::pair<std::string, std::string>> defines;
+    for (const auto& [bit, name] : names)
+        if (variant & bit) defines.emplace_back(name, "1");
+    return fullscreenProgram(device, "frame/shade.frag", defines);
 }
 
 }  // namespace
@@ -31,7 +44,7 @@ struct Lighting::State {
 
     gl::Device& device;
     Fullscreen fullscreen;
-    const gl::Program* shade[2][2] = {};      // [sun irradiance given][terms wanted]
+    const gl::Program* shade[kShadeVariants] = {};   // by a sum of Variant; rare ones are built when first asked for
     const gl::Program *background = nullptr, *plainBackground = nullptr;
     AmbientOcclusion occlusion;
     EnvironmentMap environment;
@@ -41,6 +54,7 @@ struct Lighting::State {
     gl::Texture open;                         // 1 x 1, for forward passes without occlusion
     bool occlusionOn = false;
     bool plain = false;
+    int variant = 0;                          // of what prepare() was given
 
     bool termsWanted = false;
     gl::Texture direct, shadow;
@@ -51,16 +65,13 @@ struct Lighting::State {
     Result<void> makeBuffers();
     void bindLight() const;
     void resizeTerms(const Targets& targets);
+    const gl::Program& shadeVariant(int wanted);
 };
 
 Result<void> Lighting::State::makePrograms() {
-    for (int own = 0; own < 2; ++own)
-        for (int terms = 0; terms < 2; ++terms) {
-            std::vector<std::pair<std::string, std::string>> defines;
-            if (own) defines.emplace_back("SUN_IRRADIANCE", "1");
-            if (terms) defines.emplace_back("TERMS", "1");
-            SHOAL_TRY_ASSIGN(shade[own][terms], fullscreenProgram(device, "frame/shade.frag", defines));
-        }
+    for (const int v : {0, int(kNoSun), int(kNoLocalLights), kNoSun | kNoLocalLights}) {
+        SHOAL_TRY_ASSIGN(shade[v], shadeProgram(device, v));
+    }
     SHOAL_TRY_ASSIGN(background, fullscreenProgram(device, "frame/background.frag"));
     SHOAL_TRY_ASSIGN(plainBackground, fullscreenProgram(device, "frame/background.frag", {{"COLOR", "1"}}));
     return {};
@@ -101,6 +112,15 @@ void Lighting::State::resizeTerms(const Targets& targets) {
     radianceName = targets.radiance().name;
 }
 
+const gl::Program& Lighting::State::shadeVariant(int wanted) {
+    if (!shade[wanted]) {
+        auto made = shadeProgram(device, wanted);
+        if (!made) device.log(LogLevel::error, made.error().message);
+        shade[wanted] = made ? *made : shade[wanted & (kNoSun | kNoLocalLights)];
+    }
+    return *shade[wanted];
+}
+
 Lighting::Lighting(std::unique_ptr<State> state) : state_(std::move(state)) {}
 Lighting::Lighting(Lighting&&) noexcept = default;
 Lighting& Lighting::operator=(Lighting&&) noexcept = default;
@@ -128,6 +148,7 @@ void Lighting::prepare(const Context& context, const LightingParams& params, con
     State& s = *state_;
     s.occlusionOn = params.ambientOcclusion;
     s.plain = params.background != "environment";
+    s.variant = (lights.sun ? 0 : kNoSun) | (lights.punctual.empty() ? kNoLocalLights : 0);
     s.block.write(makeLightBlock(context, params, lights, s.environment.shape));
     makeLocalLights(lights.punctual, s.localScratch);
     const std::size_t bytes = s.localScratch.size() * sizeof(LocalLight);
@@ -154,7 +175,7 @@ void Lighting::shade(const Context& context, const LightingParams&, const Shadow
         gl::bindTexture(SHOAL_UNIT_PASS + i, inputs[i]);
         glBindSampler(GLuint(SHOAL_UNIT_PASS + i), 0);
     }
-    const bool own = bool(overrides.sunIrradiance);
+    const bool own = bool(overrides.sunIrradiance) && !(s.variant & kNoSun);
     if (own) {
         gl::bindTexture(SHOAL_UNIT_SUN_IRRADIANCE, overrides.sunIrradiance);
         glBindSampler(SHOAL_UNIT_SUN_IRRADIANCE, 0);
@@ -171,7 +192,7 @@ void Lighting::shade(const Context& context, const LightingParams&, const Shadow
         } else {
             targets.forward().bind();
         }
-        s.fullscreen.draw(*s.shade[own][terms], Where::surfaces);
+        s.fullscreen.draw(s.shadeVariant(s.variant | (own ? kSunIrradiance : 0) | (terms ? kTerms : 0)), Where::surfaces);
     }
     const gl::PassScope pass(context.timer, "background");
     targets.forward().bind();

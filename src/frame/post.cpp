@@ -26,7 +26,23 @@ Result<gl::Texture> makeTarget(gl::Device& device, gl::Enum format, int width, i
     return texture;
 }
 
-int curveOf(const std::string& name) { return name == "agx" ? 2 : name == "plain" ? 1 : 0; }   // kCurve... of tonemap.lib.glsl
+// What present.frag is compiled for; a curve adds 8 (AgX) or 16 (plain).
+enum Variant { kAccumulated = 1, kBloom = 2, kLook = 4, kAgx = 8, kPlain = 16 };
+constexpr int kPresentVariants = 24;
+
+int variantOf(const PostParams& params) {
+    const bool look = params.saturation != 1 || params.contrast != 1;
+    return (look ? kLook : 0) | (params.toneCurve == "agx" ? kAgx : params.toneCurve == "plain" ? kPlain : 0);
+}
+
+Result<const gl::Program*> presentProgram(gl::Device& device, int variant) {
+    const std::pair<Variant, const char*> names[] = {
+        {kAccumulated, "ACCUMULATED"}, {kBloom, "BLOOM"}, {kLook, "LOOK"}, {kAgx, "CURVE_AGX"}, {kPlain, "CURVE_PLAIN"}};
+    std::vector<std::pair<std::string, std::string>> defines;
+    for (const auto& [bit, name] : names)
+        if (variant & bit) defines.emplace_back(name, "1");
+    return fullscreenProgram(device, "frame/present.frag", defines);
+}
 
 void bindInput(int unit, const gl::TextureView& texture) {
     gl::bindTexture(SHOAL_UNIT_PASS + unit, texture);
@@ -44,7 +60,7 @@ struct Post::State {
     Bloom bloom;
     const gl::Program *accumulate = nullptr, *resolve = nullptr, *temporal = nullptr;
     const gl::Program* bloomFirst[2] = {};    // [accumulated]
-    const gl::Program* present[2][2] = {};    // [accumulated][bloom]
+    const gl::Program* present[kPresentVariants] = {};   // by a sum of Variant; others than the default are built when first asked for
 
     int width = 0, height = 0;
     enum class Source { none, accumulated, temporal } source = Source::none;
@@ -75,6 +91,7 @@ struct Post::State {
     bool accumulated() const { return source == Source::accumulated; }
     void bindSource() const;
     void setReprojection(const Context& context);
+    const gl::Program* presentVariant(int wanted);
 };
 
 Result<void> Post::State::makePrograms() {
@@ -85,9 +102,8 @@ Result<void> Post::State::makePrograms() {
         std::vector<std::pair<std::string, std::string>> defines;
         if (sums) defines.emplace_back("ACCUMULATED", "1");
         SHOAL_TRY_ASSIGN(bloomFirst[sums], fullscreenProgram(device, "frame/bloom_first.frag", defines));
-        SHOAL_TRY_ASSIGN(present[sums][0], fullscreenProgram(device, "frame/present.frag", defines));
-        defines.emplace_back("BLOOM", "1");
-        SHOAL_TRY_ASSIGN(present[sums][1], fullscreenProgram(device, "frame/present.frag", defines));
+        const int usual = variantOf(PostParams{}) | (sums ? kAccumulated : 0);
+        SHOAL_TRY_ASSIGN(present[usual], presentProgram(device, usual));
     }
     return {};
 }
@@ -170,6 +186,15 @@ void Post::State::setReprojection(const Context& context) {
     temporal->set(1, corner);
     temporal->set(2, slope(clipOf(1, -1), view.width));
     temporal->set(3, slope(clipOf(-1, 1), view.height));
+}
+
+const gl::Program* Post::State::presentVariant(int wanted) {
+    if (!present[wanted]) {
+        auto made = presentProgram(device, wanted);
+        if (made) present[wanted] = *made;
+        else device.log(LogLevel::error, made.error().message);
+    }
+    return present[wanted];
 }
 
 Post::Post(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -262,16 +287,17 @@ void Post::present(const Context& context, const PostParams& params, bool reset)
         s.bloom.compute(first, s.width, s.height, s.fullscreen);
     }
     const gl::PassScope pass(context.timer, "present");
-    const gl::Program& program = *s.present[s.accumulated()][bloom];
+    const int variant = variantOf(params) | (s.accumulated() ? kAccumulated : 0) | (bloom ? kBloom : 0);
+    const gl::Program* program = s.presentVariant(variant);
+    if (!program) return;
     s.bindSource();
     if (bloom) bindInput(2, s.bloom.result());
-    if (s.accumulated()) program.set(8, float(s.sampleCount));
+    if (s.accumulated()) program->set(8, float(s.sampleCount));
     s.exposure.bind();
-    const bool look = params.saturation != 1 || params.contrast != 1;
-    program.set(0, Vec4{s.fixedFactor, s.automatic ? 1.0f : 0.0f, params.bloom, 0});
-    program.set(1, Vec4{float(curveOf(params.toneCurve)), params.saturation, params.contrast, look ? 1.0f : 0.0f});
+    program->set(0, Vec4{s.fixedFactor, s.automatic ? 1.0f : 0.0f, params.bloom, 0});
+    if (variant & kLook) program->set(1, Vec4{params.saturation, params.contrast, 0, 0});
     s.toDisplay.bind();
-    s.fullscreen.draw(program);
+    s.fullscreen.draw(*program);
 }
 
 gl::TextureView Post::display() const { return state_->display.view(); }

@@ -21,7 +21,8 @@ void main() {
     vec2 d = texelFetch(openTexture, high, 0).xy;
     vec4 open = vec4(a.x, b.x, c.x, d.x);
     vec4 away = abs(vec4(a.y, b.y, c.y, d.y) - depth);
-    vec4 weight = 1.0 / (away + tolerance.x * depth * 0.1 + 1e-6);
+    vec4 near = 1.0 / (away + tolerance.x * depth + 1e-6);
+    vec4 weight = near * near;
     float blended = dot(open, weight) / dot(weight, vec4(1.0));
     outOpen = clamp(1.0 - (1.0 - blended) * tolerance.y, 0.0, 1.0);
 }

@@ -1,6 +1,6 @@
 #version 450 core
 // Radiance to display values: bloom, exposure, tone curve, look, and noise of half a step of 8 bits against banding.
-// Variants: ACCUMULATED (display_source.io.glsl), BLOOM.
+// Variants: ACCUMULATED (display_source.io.glsl), BLOOM, LOOK, CURVE_AGX, CURVE_PLAIN, else no curve and no noise.
 #include "frame/display_source.io.glsl"
 #include "frame/exposure.io.glsl"
 #include "frame/tonemap.lib.glsl"
@@ -9,7 +9,7 @@
 layout(binding = SHOAL_UNIT_PASS + 2) uniform sampler2D bloomTexture;   // half resolution, linear filter
 #endif
 layout(location = 0) uniform vec4 exposure;   // x: factor, y: 1 multiplies the measured exposure in, z: bloom, w: unused
-layout(location = 1) uniform vec4 look;       // x: curve (kCurve...), y: saturation, z: contrast, w: 1 looks are on
+layout(location = 1) uniform vec4 look;       // x: saturation, y: contrast
 
 layout(location = 0) out vec4 outDisplay;
 
@@ -22,9 +22,18 @@ void main() {
 #endif
     float factor = exposure.x * (exposure.y > 0.0 ? exposureState.adapted : 1.0);
     vec3 radiance = source.rgb * (source.a > 0.0 ? factor / source.a : 0.0);
-    int curve = int(look.x);
-    vec3 display = displayFromRadiance(radiance, curve);
-    if (look.w > 0.0) display = applyLook(display, look.y, look.z);
-    if (curve != kCurveNone) display += (interleavedNoise(gl_FragCoord.xy) - 0.5) / 255.0;
+#if defined(CURVE_AGX)
+    vec3 display = displayByAgx(radiance);
+#elif defined(CURVE_PLAIN)
+    vec3 display = displayByPlain(radiance);
+#else
+    vec3 display = displayByNone(radiance);
+#endif
+#ifdef LOOK
+    display = applyLook(display, look.x, look.y);
+#endif
+#if defined(CURVE_AGX) || defined(CURVE_PLAIN)
+    display += (interleavedNoise(gl_FragCoord.xy) - 0.5) / 255.0;
+#endif
     outDisplay = vec4(clamp(display, 0.0, 1.0), source.a);
 }

@@ -11,10 +11,6 @@
 #define SHOAL_FUNCTION
 #endif
 
-const int kCurveNone = 0;
-const int kCurvePlain = 1;
-const int kCurveAgx = 2;
-
 SHOAL_FUNCTION float srgbEncode(float x) {
     return x <= 0.0031308f ? 12.92f * x : 1.055f * pow(x, 1.0f / 2.4f) - 0.055f;
 }
@@ -47,12 +43,11 @@ SHOAL_FUNCTION vec3 agx(vec3 radiance) {
     return outset * vec3(agxContrast(x.x), agxContrast(x.y), agxContrast(x.z));
 }
 
-// curve: kCurve... . Negative and over-bright results are clipped.
-SHOAL_FUNCTION vec3 displayFromRadiance(vec3 radiance, int curve) {
-    vec3 c = max(radiance, vec3(0.0f));
-    if (curve == kCurveAgx) c = agx(c);
-    else if (curve == kCurvePlain) c = srgbEncode(min(c, vec3(1.0f)));
-    return clamp(c, vec3(0.0f), vec3(1.0f));
+// Exposed radiance to display values by each curve. Negative and over-bright results are clipped.
+SHOAL_FUNCTION vec3 displayByNone(vec3 radiance) { return clamp(radiance, vec3(0.0f), vec3(1.0f)); }
+SHOAL_FUNCTION vec3 displayByPlain(vec3 radiance) { return srgbEncode(clamp(radiance, vec3(0.0f), vec3(1.0f))); }
+SHOAL_FUNCTION vec3 displayByAgx(vec3 radiance) {
+    return clamp(agx(max(radiance, vec3(0.0f))), vec3(0.0f), vec3(1.0f));
 }
 
 // Saturation and contrast of display values; contrast turns about middle grey.
