@@ -82,27 +82,35 @@ Mat4 poseAt(const std::vector<CameraPoseKey>& poses, float time) {
     return poses[i].worldFromView;
 }
 
-// Looks down a little and from the side at all there is, so that it fills most of the picture.
-light::Camera fittedCamera(const CameraSpec& spec, const Bounds& bounds, float aspect) {
+// Looks down a little and from the side, as near as holds every box in the picture. For a given direction that is a closed form: with
+// coordinates right, up and back of the camera, a point p is inside the left and right edges when
+// eye.back >= p.back + |p.right - eye.right| / tanX; two lines whose crossing is the nearest eye. The same goes for up and down.
+light::Camera fittedCamera(const CameraSpec& spec, const Content& content, float aspect) {
     const float fov = radians(spec.fovDeg);
-    if (bounds.empty()) return light::cameraLookingAt({4, 3, 6}, {0, 0, 0}, fov);
-    const Vec3 center = bounds.center();
-    const Vec3 size = bounds.size();
+    const Bounds& all = content.focus;
+    if (all.empty()) return light::cameraLookingAt({4, 3, 6}, {0, 0, 0}, fov);
+    const Vec3 size = all.size();
     // Flat, wide things (a street, a harbour) are looked at from higher up.
     const float flatness = std::clamp(size.y / std::max({size.x, size.z, 1e-6f}), 0.0f, 1.0f);
-    const float elevation = radians(10.0f + 16.0f * (1 - flatness)), azimuth = radians(32);
-    const Vec3 toEye{std::cos(elevation) * std::sin(azimuth), std::sin(elevation), std::cos(elevation) * std::cos(azimuth)};
-    const Vec3 right = normalize(cross({0, 1, 0}, toEye)), up = cross(toEye, right);
+    const float elevation = radians(10.0f + 14.0f * (1 - flatness)), azimuth = radians(32);
+    const Vec3 back{std::cos(elevation) * std::sin(azimuth), std::sin(elevation), std::cos(elevation) * std::cos(azimuth)};
+    const Vec3 right = normalize(cross({0, 1, 0}, back)), up = cross(back, right);
     const float tanY = std::tan(0.5f * fov), tanX = tanY * aspect;
-    float distance = 0;
-    for (int corner = 0; corner < 8; ++corner) {
-        const Vec3 p{corner & 1 ? bounds.hi.x : bounds.lo.x, corner & 2 ? bounds.hi.y : bounds.lo.y, corner & 4 ? bounds.hi.z : bounds.lo.z};
-        const Vec3 d = p - center;
-        const float along = dot(d, toEye);
-        distance = std::max({distance, along + std::abs(dot(d, right)) / tanX, along + std::abs(dot(d, up)) / tanY});
+    float toRight = -1e30f, toLeft = -1e30f, toUp = -1e30f, toDown = -1e30f, nearest = -1e30f;
+    const Vec3 center = all.center();
+    for (const Bounds& box : content.focusBoxes) {
+        for (int corner = 0; corner < 8; ++corner) {
+            const Vec3 p = Vec3{corner & 1 ? box.hi.x : box.lo.x, corner & 2 ? box.hi.y : box.lo.y, corner & 4 ? box.hi.z : box.lo.z} - center;
+            const float r = dot(p, right), u = dot(p, up), b = dot(p, back);
+            toRight = std::max(toRight, b + r / tanX), toLeft = std::max(toLeft, b - r / tanX);
+            toUp = std::max(toUp, b + u / tanY), toDown = std::max(toDown, b - u / tanY);
+            nearest = std::max(nearest, b);
+        }
     }
-    distance = std::max(distance * 1.08f, 1e-3f);
-    light::Camera camera = light::cameraLookingAt(center + toEye * distance, center, fov);
+    constexpr float kMargin = 1.06f;
+    const float distance = std::max(0.5f * std::max(toRight + toLeft, toUp + toDown), nearest + 1e-3f) * kMargin;
+    const Vec3 target = center + right * (0.5f * (toRight - toLeft) * tanX) + up * (0.5f * (toUp - toDown) * tanY);
+    light::Camera camera = light::cameraLookingAt(target + back * distance, target, fov);
     camera.nearZ = std::clamp(0.002f * distance, 1e-4f, 0.1f);
     camera.heightM = 2 * distance * tanY;
     return camera;
@@ -168,7 +176,7 @@ light::Camera cameraAt(const Scene& scene, const Content& content, float time, f
         camera.nearZ = spec.near;
         camera.heightM = spec.heightM;
         break;
-    case CameraKind::fitted: camera = fittedCamera(spec, content.focus, aspect); break;
+    case CameraKind::fitted: camera = fittedCamera(spec, content, aspect); break;
     }
     if (spec.projection == "orthographic") camera.projection = light::Camera::Projection::orthographic;
     if (scene.intrinsics) {

@@ -275,23 +275,30 @@ void measure(Content& content) {
     std::stable_sort(boxes.begin(), boxes.end(), [](const Box& a, const Box& b) { return a.bounds.radius() > b.bounds.radius(); });
     std::size_t first = 0, dropped = 0;
     while (first + 1 < boxes.size() && 50 * (dropped + boxes[first].vertexCount) < total) dropped += boxes[first++].vertexCount;
-    for (std::size_t i = first; i < boxes.size(); ++i) content.focus.add(boxes[i].bounds);
+    for (std::size_t i = first; i < boxes.size(); ++i) {
+        content.focus.add(boxes[i].bounds);
+        content.focusBoxes.push_back(boxes[i].bounds);
+    }
 }
 
-// Ground under a bare model: a disc that fades into the environment would need blending; a wide plane takes the shadow.
-Result<void> addGround(Content& content) {
-    const Bounds bounds = content.bounds;
+// A wide plane under a bare model takes its shadow. It reflects as much as the sky's own ground, so the two meet without a line. Models
+// that are places (a street, a harbour: wide and flat) bring their own ground.
+Result<void> addGround(const EnvironmentSpec& environment, Content& content) {
+    const Bounds& bounds = content.bounds;
     if (bounds.empty()) return {};
-    const float size = std::max(40.0f * bounds.radius(), 1.0f);
+    constexpr float kPlaceWidth = 15, kPlaceFlatness = 0.5f;
+    const float width = std::max(bounds.size().x, bounds.size().z);
+    if (width > kPlaceWidth && bounds.size().y < kPlaceFlatness * width) return {};
     FieldValue value;
-    value.numbers = {double(size)};
+    value.numbers = {std::clamp(double(60.0f * bounds.radius()), 1.0, 1000.0)};
     const ShapeSetting settings[] = {{"width", value}, {"depth", value}};
     SHOAL_TRY_ASSIGN(Model plane, makeShape("plane", settings));
     for (Material& material : plane.materials) {
-        material.baseColor = {0.32f, 0.32f, 0.31f, 1};
-        material.roughness = 0.9f;
+        const Vec3 albedo = environment.groundAlbedo;
+        material.baseColor = {albedo.x, albedo.y, albedo.z, 1};
+        material.roughness = 1;
         material.metallic = 0;
-        material.baseColorTexture = material.normalTexture = {};
+        material.baseColorTexture = material.normalTexture = material.metallicRoughnessTexture = {};
     }
     Instance instance;
     instance.name = "ground";
@@ -364,7 +371,7 @@ Result<Content> loadContent(const Scene& scene, const LogSink& log) {
     addModelLights(content);
     SHOAL_TRY(readPoses(scene, content));
     measure(content);
-    if (scene.bareModel) SHOAL_TRY(addGround(content));
+    if (scene.bareModel) SHOAL_TRY(addGround(scene.environment, content));
     if (scene.cameraKind == CameraKind::modelCamera) SHOAL_TRY(checkModelCamera(scene, content));
     return content;
 }

@@ -43,6 +43,7 @@ struct Content {
     std::vector<light::PunctualLight> lights;        // the scene's and the models' own
     std::vector<CameraPoseKey> poses;                // of CameraKind::poses
     Bounds bounds;                                   // of all visible instances at time 0, world
+    std::vector<Bounds> focusBoxes;                  // one a mesh that is worth looking at
     Bounds focus;                                    // the same without wide, empty things: ground, sea, sky dome
 };
 

@@ -163,7 +163,7 @@ struct PierShape {
     float length = 18, width = 2.6f, deckHeight = 1.2f, waterDepth = 4;
     bool railing = true;
     int props = 6;
-    Vec3 color{1, 0.93f, 0.84f};
+    Vec3 color{1, 1, 0.97f};
     std::uint32_t seed = 1;
 };
 template <class P, class V>

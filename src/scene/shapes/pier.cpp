@@ -115,7 +115,7 @@ Result<Model> makePier(const PierShape& shape) {
     ModelBuilder builder("pier");
     Dice dice(shape.seed * 19 + 3);
     Palette palette;
-    palette.wood = builder.addMaterial("wood", {0.86f, 0.95f, 1.0f}, makeWood(shape.seed));   // weathered: greyed
+    palette.wood = builder.addMaterial("wood", {1.0f, 1.0f, 1.0f}, makeWood(shape.seed));
     palette.darkMetal = builder.addMaterial("iron", {0.06f, 0.058f, 0.055f}, 0.55f, 0.6f);
     palette.steel = builder.addMaterial("steel", {0.5f, 0.51f, 0.52f}, 0.35f, 1);
     palette.paint = builder.addMaterial("rope", {1, 1, 1}, 0.9f);

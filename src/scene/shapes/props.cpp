@@ -28,7 +28,7 @@ Blob makeBoulder(std::uint32_t seed, int level, float moss) {
         const float patch = fractal3(p * 3, 3, seed + 9);
         const float green = moss * smoothstep(0.15f, 0.6f, p.y + 0.6f * patch);
         const Vec3 stone = Vec3{1.0f, 0.98f, 0.95f} * (0.95f + 0.22f * patch);
-        blob.colors[i] = lerp(stone, Vec3{0.50f, 0.62f, 0.28f} * (0.8f + 0.3f * patch), std::clamp(green, 0.0f, 0.85f));
+        blob.colors[i] = lerp(stone, Vec3{0.34f, 0.44f, 0.15f} * (0.8f + 0.3f * patch), std::clamp(green, 0.0f, 0.85f));
     }
     return blob;
 }

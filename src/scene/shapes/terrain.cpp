@@ -52,13 +52,13 @@ private:
 
 Vec3 groundColor(const TerrainShape& shape, Vec3 p, float steepness) {
     const float patch = fractal(p.x * 0.13f, p.z * 0.13f, 4, shape.seed + 200), fine = noise(p.x * 1.1f, p.z * 1.1f, shape.seed + 210);
-    const Vec3 sand = Vec3{0.78f, 0.66f, 0.47f} * (1 + 0.06f * fine);
-    const Vec3 grass = lerp(Vec3{0.20f, 0.27f, 0.075f}, Vec3{0.36f, 0.36f, 0.13f}, smoothstep(-0.4f, 0.6f, patch)) * (1 + 0.18f * fine);
+    const Vec3 sand = Vec3{0.72f, 0.60f, 0.42f} * (1 + 0.06f * fine);
+    const Vec3 grass = lerp(Vec3{0.105f, 0.145f, 0.05f}, Vec3{0.235f, 0.22f, 0.10f}, smoothstep(-0.5f, 0.7f, patch)) * (1 + 0.25f * fine);
     const Vec3 rock = lerp(Vec3{0.40f, 0.37f, 0.33f}, Vec3{0.27f, 0.25f, 0.23f}, smoothstep(-0.5f, 0.5f, fine + patch));
     const float line = shape.island ? shape.grassLine : -1e9f;
     Vec3 color = lerp(sand, grass, smoothstep(line - 0.35f, line + 0.45f, p.y + 0.7f * patch));
     if (shape.island) color = color * mix(1.0f, 0.62f, (1 - smoothstep(0.02f, 0.32f, p.y)));   // wet by the waves
-    return lerp(color, rock, smoothstep(0.2f, 0.42f, steepness + 0.07f * fine));
+    return lerp(color, rock, smoothstep(0.13f, 0.30f, steepness + 0.09f * fine + 0.06f * patch));
 }
 
 void addGround(ModelBuilder& builder, const TerrainShape& shape, const Ground& ground, int material) {

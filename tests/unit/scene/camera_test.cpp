@@ -54,6 +54,7 @@ TEST(SceneCamera, FittedHoldsAllCorners) {
     Content content;
     content.focus.add(Vec3{-3, 0, -2});
     content.focus.add(Vec3{5, 7, 4});
+    content.focusBoxes = {content.focus};
     const light::View view = light::makeView(cameraOf("", 0, content), 1600, 900);
     for (int corner = 0; corner < 8; ++corner) {
         const Vec3 p{corner & 1 ? 5.0f : -3.0f, corner & 2 ? 7.0f : 0.0f, corner & 4 ? 4.0f : -2.0f};
