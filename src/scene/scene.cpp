@@ -324,13 +324,13 @@ Result<Scene> sceneForModel(const std::filesystem::path& modelFile, std::span<co
     name.kind = Tree::Kind::value;
     name.value.kind = FieldValue::Kind::text;
     name.value.text = std::filesystem::absolute(modelFile).string();
-    model.members.emplace_back("file", name);
+    model.members.push_back({"file", name});
     name.value.text = "*";   // the first clip there is
-    model.members.emplace_back("clip", name);
+    model.members.push_back({"clip", name});
     Tree models;
     models.kind = Tree::Kind::array;
     models.elements.push_back(model);
-    root.members.emplace_back("model", models);
+    root.members.push_back({"model", models});
     for (const Override& change : overrides) SHOAL_TRY(applyOverride(root, change));
     SHOAL_TRY_ASSIGN(Scene scene, sceneOfTree(root, modelFile));
     scene.bareModel = true;

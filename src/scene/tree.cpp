@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <charconv>
 
+// toml++ 3.3.0 aborts on broken tables such as "\n[\n["; without the check its parser reports them as errors.
+#define TOML_ASSERT(condition) static_cast<void>(0)
 #define TOML_EXCEPTIONS 0
 #define TOML_ENABLE_UNRELEASED_FEATURES 0
 #include <toml++/toml.h>
@@ -19,7 +21,7 @@ const Tree* Tree::find(std::string_view key) const { return const_cast<Tree*>(th
 
 std::vector<std::string> Tree::keys() const {
     std::vector<std::string> names;
-    for (const auto& member : members) names.push_back(member.first);
+    for (const auto& member : members) names.push_back(member.name);
     return names;
 }
 
@@ -65,10 +67,10 @@ Result<Tree> convertTable(const toml::table& table, Tree tree) {
     for (const auto& [key, value] : table) {
         SHOAL_TRY_ASSIGN(Tree child, convert(value, tree.place.file));
         child.place.line = int(key.source().begin.line);
-        tree.members.emplace_back(std::string(key.str()), std::move(child));
+        tree.members.push_back({std::string(key.str()), std::move(child)});
     }
     std::stable_sort(tree.members.begin(), tree.members.end(),
-                     [](const auto& a, const auto& b) { return a.second.place.line < b.second.place.line; });
+                     [](const auto& a, const auto& b) { return a.tree.place.line < b.tree.place.line; });
     return tree;
 }
 
@@ -133,7 +135,7 @@ Tree treeOfWords(const std::string& words) {
         if (auto tree = convert(*parsed.table().get("value"), "")) {
             const auto forgetPlaces = [](auto& self, Tree& t) -> void {
                 t.place = {};
-                for (auto& member : t.members) self(self, member.second);
+                for (auto& member : t.members) self(self, member.tree);
                 for (Tree& element : t.elements) self(self, element);
             };
             forgetPlaces(forgetPlaces, *tree);
@@ -171,8 +173,8 @@ Result<void> applyOverride(Tree& root, const Override& change) {
             return usageError("--set " + change.key + ": " + step.name + " is asked of " + describeKind(*at) + ", expected a table");
         Tree* member = at->find(step.name);
         if (!member) {
-            at->members.emplace_back(step.name, Tree{});
-            member = &at->members.back().second;
+            at->members.push_back({step.name, Tree{}});
+            member = &at->members.back().tree;
         }
         for (const std::size_t index : step.indices) {
             if (member->kind != Tree::Kind::array || index >= member->elements.size())

@@ -11,16 +11,23 @@
 
 namespace shoal::scene {
 
+struct TreeMember;
+
 struct Tree {
     enum class Kind { value, table, array } kind = Kind::table;
     FieldValue value;                                    // Kind::value; arrays of numbers are values too
-    std::vector<std::pair<std::string, Tree>> members;   // Kind::table, in file order
+    std::vector<TreeMember> members;     // Kind::table, in file order
     std::vector<Tree> elements;                          // Kind::array
     Place place;
 
     Tree* find(std::string_view key);
     const Tree* find(std::string_view key) const;
     std::vector<std::string> keys() const;
+};
+
+struct TreeMember {
+    std::string name;
+    Tree tree;
 };
 
 // Files longer than this are not scenes.

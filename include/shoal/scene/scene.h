@@ -100,7 +100,7 @@ void visit(P& p, V&& v) {
 }
 
 struct SunSpec {
-    Vec3 toSun{0.45f, 0.75f, 0.48f};
+    Vec3 toSun{-0.55f, 0.72f, 0.6f};
     Vec3 irradiance{-1, -1, -1};      // below 0: what the clear sky leaves of the sun, else 9.2
     float discDeg = 0.2667f;
     bool castsShadow = true;
