@@ -59,14 +59,16 @@ void main() {
     float shift = fract(float((half_.y - half_.x) & 3) * 0.25 + shape.w * 2.0);
 
     float radiusPx = min(shape.x * shape.y / mix(max(depth, 1e-6), 1.0, shape.z), kLargestRadius * falloff.w);
+    // An orthonormal frame about toEye, whose z is positive [Duff et al. 2017].
+    float a = 1.0 / (1.0 + toEye.z), b = -toEye.x * toEye.y * a;
+    vec3 right = vec3(1.0 - toEye.x * toEye.x * a, b, -toEye.x), up = vec3(b, 1.0 - toEye.y * toEye.y * a, -toEye.y);
     float open = 0.0;
     for (int slice = 0; slice < kSlices; ++slice) {
         float angle = (float(slice) + turn) * (2.0 * kHalfPi / float(kSlices));
-        vec2 along = vec2(cos(angle), sin(angle));
-        // The slice is the plane of toEye and `along`; the normal is projected into it.
-        vec3 direction = vec3(along, 0.0);
-        vec3 across = normalize(cross(direction, toEye));
-        vec3 tangent = cross(toEye, across);
+        // The slice is the plane of toEye and `tangent`, even around toEye; on the screen it runs `along`.
+        vec3 tangent = right * cos(angle) + up * sin(angle);
+        vec3 across = cross(tangent, toEye);
+        vec2 along = normalize(tangent.xy * toEye.z - toEye.xy * tangent.z);
         vec3 projected = normal - across * dot(normal, across);
         float projectedLength = max(length(projected), 1e-5);
         float cosNormal = clamp(dot(projected, toEye) / projectedLength, -1.0, 1.0);
@@ -89,5 +91,6 @@ void main() {
         float arc = 2.0 * cosNormal + 2.0 * (h0 + h1) * sinNormal - cos(2.0 * h0 - n) - cos(2.0 * h1 - n);
         open += 0.25 * arc * projectedLength;
     }
-    outOpen = vec2(depth > 0.0 ? clamp(open / float(kSlices), 0.0, 1.0) : 1.0, depth);
+    // Not clamped: a few slices of an open plane average to 1 only together with those of the pixels around.
+    outOpen = vec2(depth > 0.0 ? open / float(kSlices) : 1.0, depth);
 }
