@@ -33,14 +33,16 @@ vec3 viewPosition(vec2 pixel, float depth) {
     return vec3((pixel * pixelToView.xy + pixelToView.zw) * mix(depth, 1.0, shape.z), -depth);
 }
 
-// The cosine of the horizon on one side of the slice, raised by a sample at `pixel`.
-float raised(float horizon, float least, vec2 pixel, vec3 position, vec3 toEye) {
+// The cosine of the horizon on one side of the slice, raised by a sample at `pixel`. Samples less than some 2 degrees above the surface's
+// plane do not count: rounded to whole pixels they lie beside the slice, and the facets of round things are no creases.
+float raised(float horizon, float least, vec2 pixel, vec3 position, vec3 toEye, vec3 normal) {
     ivec2 at = clamp(ivec2(pixel), ivec2(0), ivec2(falloff.zw) - 1);
     float depth = texelFetch(viewDepthTexture, at, 0).x;
     vec3 delta = viewPosition(vec2(at) + 0.5, depth) - position;
     float away2 = dot(delta, delta);
     float scale = inversesqrt(max(away2, 1e-12));
     float weight = clamp(away2 * scale * falloff.x + falloff.y, 0.0, 1.0);
+    weight *= clamp(dot(delta, normal) * scale * 25.0 - 0.25, 0.0, 1.0);
     weight = depth > 0.0 ? weight : 0.0;
     return max(horizon, mix(least, dot(delta, toEye) * scale, weight));
 }
@@ -82,8 +84,8 @@ void main() {
         for (int i = 0; i < kSteps; ++i) {
             float t = (float(i) + shift) / float(kSteps);
             vec2 offset = along * max(t * t * radiusPx, float(i) + 1.5);
-            ahead = raised(ahead, leastAhead, pixel + offset, position, toEye);
-            behind = raised(behind, leastBehind, pixel - offset, position, toEye);
+            ahead = raised(ahead, leastAhead, pixel + offset, position, toEye, normal);
+            behind = raised(behind, leastBehind, pixel - offset, position, toEye, normal);
         }
         float h0 = -fastAcos(clamp(behind, -1.0, 1.0));
         float h1 = fastAcos(clamp(ahead, -1.0, 1.0));
