@@ -40,8 +40,6 @@ SunAxes sunAxes(Vec3 toSun) {
     return axes;
 }
 
-// Steps of a quarter octave: sizes that follow the scene or the view change seldom, and then visibly little.
-double roundedUp(double x) { return std::exp2(std::ceil(std::log2(std::max(x, 1e-3)) * 4 - 1e-6) / 4); }
 double roundedDown(double x) { return x < 1e-3 ? 0 : std::exp2(std::floor(std::log2(x) * 4 + 1e-6) / 4); }
 
 struct SceneBox {
@@ -145,6 +143,8 @@ light::View cascadeView(const SunAxes& axes, Vec2 center, double halfExtent, dou
 }
 
 }  // namespace
+
+double roundedUp(double size) { return std::exp2(std::ceil(std::log2(std::max(size, 1e-3)) * 4 - 1e-6) / 4); }
 
 CascadeFit fitCascades(const light::View& view, Vec3 toSun, const Bounds& bounds, const CascadeFitSetup& setup) {
     const SunAxes axes = sunAxes(toSun);

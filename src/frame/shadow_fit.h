@@ -13,6 +13,10 @@ namespace shoal::frame {
 
 inline constexpr int kMaxCascades = 4;
 
+// Up to the next step of a quarter octave: sizes that follow the scene or the view change seldom, and then little. At least a
+// millimetre.
+double roundedUp(double size);
+
 struct CascadeFitSetup {
     int resolution = 2048;      // texels a side
     int cascadeCount = 4;       // 1..kMaxCascades

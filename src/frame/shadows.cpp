@@ -94,12 +94,14 @@ NeededView neededView(State::Slot& slot, NeededView::Purpose purpose, const ligh
     return needed;
 }
 
-// params.sunDistance, or as far as the scene reaches: all of it seen from outside, 150 m seen from within.
+// params.sunDistance, or as far as the scene reaches: all of it seen from outside, 150 m seen from within. In steps, so that a moving
+// eye does not resize the cascades all the time.
 float sunDistance(const Context& context, const ShadowParams& params, const Bounds& bounds) {
     if (params.sunDistance > 0) return params.sunDistance;
     constexpr float kFromWithin = 150, kFromOutside = 2.5f;
     const float away = length(bounds.center() - context.view.eye);
-    return std::max(std::min(away + bounds.radius(), std::max(kFromWithin, kFromOutside * away)), 4 * context.view.nearZ);
+    const float wanted = std::min(away + bounds.radius(), std::max(kFromWithin, kFromOutside * away));
+    return float(roundedUp(std::max(wanted, 4 * context.view.nearZ)));
 }
 
 void prepareSun(State& s, const Context& context, const ShadowParams& params, const light::Sun* sun, const Bounds& bounds,
