@@ -161,7 +161,7 @@ TEST(Mips, MaskedTexturesKeepTheirCoverage) {
         return double(passing) * 4 / double(mip.pixels.size());
     };
     const auto kept = makeMips(image, {.color = true, .coverageCutoff = kCutoff}), plain = makeMips(image, {.color = true});
-    for (int level = 0; level < 3; ++level) EXPECT_NEAR(share(kept[std::size_t(level)], 192), 0.25, 0.03) << "level " << level;
+    for (int level = 0; level < 3; ++level) EXPECT_NEAR(share(kept[std::size_t(level)], 192), 0.25, 0.05) << "level " << level;
     EXPECT_LT(share(plain[2], 192), 0.01) << "without it twigs vanish";
 }
 
