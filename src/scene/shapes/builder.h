@@ -76,7 +76,7 @@ private:
     std::deque<Piece> pieces_;
 };
 
-// A box with rounded edges: bevel in metres, clamped to the smallest half extent. Texture u runs along the longer side of each face.
+// A box with rounded edges: bevel in metres, clamped to the smallest half extent; nothing where there is no room for one. Texture u runs along the longer side of each face.
 void addBox(Part& part, const Frame& center, Vec3 half, float bevel);
 // The same standing on frame.origin; size in full.
 void addStandingBox(Part& part, const Frame& base, Vec3 size, float bevel);
@@ -85,7 +85,8 @@ void addBeam(Part& part, Vec3 from, Vec3 to, float width, float height, float be
 // The upper side of a flat stone: rounded edge, nothing underneath. frame.origin in the middle of the top.
 void addSlab(Part& part, const Frame& top, float halfX, float halfZ, float bevel);
 // A body of revolution about frame.y: (radius, height) from below upwards along the outside; corners sharper than 40 degrees stay sharp.
-void addLathe(Part& part, const Frame& frame, const std::vector<Vec2>& profile, int segments);
+// Texture u runs round it, or along the profile (the grain of a trunk) where grainUp.
+void addLathe(Part& part, const Frame& frame, const std::vector<Vec2>& profile, int segments, bool grainUp = false);
 void addCylinder(Part& part, const Frame& base, float radius, float height, float bevel, int segments);
 // A sphere about frame.origin.
 void addSphere(Part& part, const Frame& center, float radius, int segments);

@@ -35,9 +35,9 @@ void addPile(Part& wood, const PierShape& shape, Vec3 foot, float top, float rad
     wood.uvOffset = {dice.unit(), dice.unit()};
     const float bottom = -shape.waterDepth, wet = std::min(0.28f, top - 0.1f);
     wood.color = shape.color * Vec3{0.34f, 0.37f, 0.30f};
-    addLathe(wood, frame, {{0, bottom}, {radius * 1.08f, bottom}, {radius * 1.04f, wet}}, 14);
+    addLathe(wood, frame, {{0, bottom}, {radius * 1.08f, bottom}, {radius * 1.04f, wet}}, 14, true);
     wood.color = shape.color * 0.8f * woodTint(dice, 0.25f);
-    addLathe(wood, frame, {{radius * 1.04f, wet}, {radius, top - 0.03f}, {radius - 0.03f, top}, {0, top + 0.01f}}, 14);
+    addLathe(wood, frame, {{radius * 1.04f, wet}, {radius, top - 0.03f}, {radius - 0.03f, top}, {0, top + 0.01f}}, 14, true);
 }
 
 void addPiles(ModelBuilder& builder, const Palette& palette, const PierShape& shape, Dice& dice) {

@@ -75,7 +75,7 @@ void addBarrel(ModelBuilder& builder, const Palette& palette, const Frame& base,
     std::vector<Vec2> body{{0, 0.03f}, {radiusAt(0) - 0.03f, 0.03f}, {radiusAt(0) - 0.025f, 0}, {radiusAt(0), 0}};
     for (int i = 1; i < 10; ++i) body.push_back({radiusAt(height * float(i) / 10), height * float(i) / 10});
     body.insert(body.end(), {{radiusAt(height), height}, {radiusAt(height) - 0.025f, height}, {radiusAt(height) - 0.03f, height - 0.03f}, {0, height - 0.03f}});
-    addLathe(wood, base, body, 28);
+    addLathe(wood, base, body, 28, true);
     Part& iron = builder.part(palette.darkMetal);
     iron.color = {1, 1, 1};
     for (const float at : {0.08f, 0.27f, 0.73f, 0.92f}) {
@@ -170,7 +170,7 @@ void addTree(ModelBuilder& builder, const Palette& palette, const Frame& base, f
     Part& bark = builder.part(palette.bark);
     bark.color = {1, 1, 1};
     const float r = 0.028f * height, fork = 0.42f * height;
-    addLathe(bark, base, {{0, -0.05f}, {r * 1.7f, -0.05f}, {r * 1.15f, 0.1f * height}, {r, 0.25f * height}, {r * 0.85f, fork}, {0.0f, fork + r}}, 12);
+    addLathe(bark, base, {{0, -0.05f}, {r * 1.7f, -0.05f}, {r * 1.15f, 0.1f * height}, {r, 0.25f * height}, {r * 0.85f, fork}, {0.0f, fork + r}}, 12, true);
     Part& leaves = builder.part(palette.leaf);
     const int limbs = 6;
     for (int i = 0; i <= limbs; ++i) {

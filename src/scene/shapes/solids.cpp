@@ -66,6 +66,7 @@ struct BoxMaker {
 }  // namespace
 
 void addBox(Part& part, const Frame& center, Vec3 half, float bevel) {
+    if (std::min({half.x, half.y, half.z}) <= 0) return;
     bevel = std::clamp(bevel, 0.0f, 0.95f * std::min({half.x, half.y, half.z}));
     const BoxMaker maker{part, center, half, bevel};
     Face faces[3][2];
@@ -153,7 +154,7 @@ std::vector<std::array<ProfilePoint, 2>> profileSegments(const std::vector<Vec2>
 
 }  // namespace
 
-void addLathe(Part& part, const Frame& frame, const std::vector<Vec2>& profile, int segments) {
+void addLathe(Part& part, const Frame& frame, const std::vector<Vec2>& profile, int segments, bool grainUp) {
     float widest = 0;
     for (const Vec2 p : profile) widest = std::max(widest, p.x);
     const float turns = std::max(1.0f, std::round(2 * kPi * widest * part.uvPerMetre));   // whole repetitions: no seam
@@ -164,10 +165,11 @@ void addLathe(Part& part, const Frame& frame, const std::vector<Vec2>& profile, 
                 const ProfilePoint& at = ends[std::size_t(end)];
                 const float turn = float(i % segments) / float(segments), c = std::cos(2 * kPi * turn), s = -std::sin(2 * kPi * turn);
                 const Vec3 p{at.at.x * c, at.at.y, at.at.x * s}, n{at.normal.x * c, at.normal.y, at.normal.x * s};
-                const Vec3 t = at.flat ? Vec3{1, 0, 0} : Vec3{s, 0, -c};
+                const Vec3 upwards{-at.normal.y * c, at.normal.x, -at.normal.y * s}, round{s, 0, -c};
+                const Vec3 t = at.flat ? Vec3{1, 0, 0} : grainUp ? upwards : round;
                 Vec2 uv = planarUv(part, p, n, t);
-                if (!at.flat)
-                    uv = {turns * float(i) / float(segments) + part.uvOffset.x, -at.arc * part.uvPerMetre + part.uvOffset.y};
+                const float turned = turns * float(i) / float(segments), climbed = at.arc * part.uvPerMetre;
+                if (!at.flat) uv = part.uvOffset + (grainUp ? Vec2{climbed, turned} : Vec2{turned, -climbed});
                 rings[end].push_back(part.add({frame.point(p), frame.direction(n), frame.direction(t), uv}));
             }
         for (std::size_t i = 0; i < std::size_t(segments); ++i) {

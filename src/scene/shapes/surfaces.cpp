@@ -84,13 +84,32 @@ Surface makeStone(std::uint32_t seed) {
         const float grain = noise(u * 128, v * 128, seed + 9, 128, 128);
         const float chisel = fractal(u * 12, v * 12, 3, seed + 11, 12, 12);
         const Cell pit = cellNoise(u * 24, v * 24, seed + 17, 24, 24);
-        const float hole = (pit.id & 7) < 3 ? 1 - smoothstep(0.06f, 0.2f, pit.distance) : 0;
+        const float size = 0.04f + 0.16f * unitOf(pit.id * 747796405u) * unitOf(pit.id * 747796405u);   // few large, many small
+        const float hole = (pit.id & 7) < 3 ? 1 - smoothstep(0.3f * size, size, pit.distance + 0.05f * chisel) : 0;
         const float vein = 1 - smoothstep(0.0f, 0.05f, std::abs(fractal(u * 2, v * 2, 3, seed + 21, 2, 2) - 0.05f));
-        const float value = 0.40f + 0.12f * blotch + 0.05f * grain + 0.06f * chisel - 0.16f * hole - 0.05f * vein;
+        const float value = 0.40f + 0.12f * blotch + 0.05f * grain + 0.06f * chisel - 0.12f * hole - 0.05f * vein;
         Texel t;
         t.albedo = Vec3{1.0f, 0.965f, 0.9f + 0.05f * blotch} * std::clamp(value, 0.05f, 0.9f);
         t.height = 0.006f * chisel + 0.0008f * grain - 0.005f * hole + 0.006f * blotch;
         t.roughness = std::clamp(0.8f + 0.1f * grain + 0.1f * hole, 0.5f, 1.0f);
+        return t;
+    });
+}
+
+Surface makeRock(std::uint32_t seed) {
+    return makeSurface(512, 1.6f, [&](float u, float v) {
+        const float warp = 0.35f * noise(u * 4, v * 4, seed + 2, 4, 4);
+        const float blotch = fractal(u * 4, v * 4, 4, seed, 4, 4);
+        const float fissure = std::abs(fractal(u * 5 + warp, v * 5 - warp, 4, seed + 31, 5, 5));
+        const float crack = 1 - smoothstep(0.0f, 0.10f, fissure);
+        const float grain = noise(u * 140, v * 140, seed + 9, 140, 140);
+        const Cell spot = cellNoise(u * 16, v * 16, seed + 17, 16, 16);
+        const float lichen = (spot.id & 7) < 2 ? (1 - smoothstep(0.15f, 0.3f, spot.distance + 0.12f * grain + 0.1f * blotch)) : 0;
+        const float value = 0.36f + 0.13f * blotch + 0.05f * grain + 0.14f * std::min(fissure, 0.6f) - 0.05f * crack;
+        Texel t;
+        t.albedo = lerp(Vec3{1.0f, 0.96f, 0.90f} * std::clamp(value, 0.04f, 0.9f), Vec3{0.40f, 0.40f, 0.28f}, 0.55f * lichen);
+        t.height = 0.03f * std::min(fissure, 0.5f) + 0.014f * blotch + 0.0014f * grain;
+        t.roughness = 0.9f;
         return t;
     });
 }

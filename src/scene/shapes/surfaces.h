@@ -16,7 +16,8 @@ struct Surface {
 };
 
 Surface makeWood(std::uint32_t seed);       // grain along u
-Surface makeStone(std::uint32_t seed);      // hewn, light; the tint comes from vertex colours
+Surface makeStone(std::uint32_t seed);      // hewn, pitted, light; the tint comes from vertex colours
+Surface makeRock(std::uint32_t seed);       // grown: cracks and lichen
 Surface makeConcrete(std::uint32_t seed);
 Surface makeSand(std::uint32_t seed);       // with ripples
 Surface makeGrit(std::uint32_t seed);       // pebbly ground: grass, soil and rock from afar

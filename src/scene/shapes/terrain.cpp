@@ -163,7 +163,7 @@ Result<Model> makeTerrain(const TerrainShape& shape) {
     builder.beginNode("ground");
     addGround(builder, shape, ground, grit);
     if (shape.rocks > 0)
-        scatterRocks(builder, shape, ground, builder.addMaterial("rock", {0.75f, 0.72f, 0.68f}, makeStone(shape.seed)), nodeCount);
+        scatterRocks(builder, shape, ground, builder.addMaterial("rock", {0.75f, 0.72f, 0.68f}, makeRock(shape.seed)), nodeCount);
     if (shape.bushes > 0) {
         const int leaf = builder.addMaterial("leaves", {0.10f, 0.15f, 0.045f}, 0.7f);
         builder.material(leaf).doubleSided = true;
@@ -176,7 +176,7 @@ Result<Model> makeRocks(const RocksShape& shape) {
     SHOAL_TRY(validate(shape));
     if (shape.largest < shape.smallest) return badInput("largest: found less than smallest, expected at least as much");
     ModelBuilder builder("rocks");
-    const int stone = builder.addMaterial("rock", min(shape.color * 2.0f, Vec3{1, 1, 1}), makeStone(shape.seed));
+    const int stone = builder.addMaterial("rock", min(shape.color * 2.0f, Vec3{1, 1, 1}), makeRock(shape.seed));
     Dice dice(shape.seed * 29 + 3);
     struct Placed {
         Vec2 at;
