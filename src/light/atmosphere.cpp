@@ -1,9 +1,10 @@
 // Rayleigh, Mie and ozone atmosphere of a planet.
-//   [Bruneton & Neyret 2008] Precomputed Atmospheric Scattering, EGSR; constants and the mapping of the transmittance table from the
-//   2017 re-implementation.
-//   [Hillaire 2020] A Scalable and Production Ready Sky and Atmosphere Rendering Technique, EGSR: multiple scattering.
-// Departs: aerosols are scaled so that turbidity means what it does in photometry (Bruneton's own are turbidity 1.05); the multiple
-// scattering table covers only the sun heights one picture needs, and its directions are Gauss points either side of the horizon.
+//   [Bruneton & Neyret 2008] Precomputed Atmospheric Scattering, EGSR; constants and the mapping of the transmittance
+//   table from the 2017 re-implementation. [Hillaire 2020] A Scalable and Production Ready Sky and Atmosphere Rendering
+//   Technique, EGSR: multiple scattering.
+// Departs: aerosols are scaled so that turbidity means what it does in photometry (Bruneton's own are turbidity 1.05);
+// the multiple scattering table covers only the sun heights one picture needs, and its directions are Gauss points
+// either side of the horizon.
 #include "light/atmosphere.h"
 
 #include <cmath>
@@ -13,23 +14,25 @@
 namespace shoal::light {
 namespace {
 
-constexpr Vec3 kRayleigh{5.802e-3f, 13.558e-3f, 33.1e-3f};       // 1/km at sea level
-// 1/km where ozone is densest. Red is not 0.65e-3, which 680 nm itself has, but what makes the spectrum drawn through the three
-// (sky_color.cpp) absorb as the band around 600 nm does, between the wavelengths; without it twilight is purple, not blue.
+constexpr Vec3 kRayleigh{5.802e-3f, 13.558e-3f, 33.1e-3f};  // 1/km at sea level
+// 1/km where ozone is densest. Red is not 0.65e-3, which 680 nm itself has, but what makes the spectrum drawn through
+// the three (sky_color.cpp) absorb as the band around 600 nm does, between the wavelengths; without it twilight is
+// purple, not blue.
 constexpr Vec3 kOzone{3.0e-3f, 1.881e-3f, 0.085e-3f};
-constexpr double kRayleighHeight = 8, kMieHeight = 1.2;          // km
-constexpr double kOzoneCenter = 25, kOzoneHalfWidth = 15;        // km
-constexpr float kMieAlbedo = 0.9f;                               // scattering over extinction
-constexpr float kAngstrom = 1.0f;                                // aerosol extinction goes with wavelength^-1
-constexpr double kSunHalfAngle = 0.004654;                       // radians
+constexpr double kRayleighHeight = 8, kMieHeight = 1.2;    // km
+constexpr double kOzoneCenter = 25, kOzoneHalfWidth = 15;  // km
+constexpr float kMieAlbedo = 0.9f;                         // scattering over extinction
+constexpr float kAngstrom = 1.0f;                          // aerosol extinction goes with wavelength^-1
+constexpr double kSunHalfAngle = 0.004654;                 // radians
 
 constexpr int kDensityCount = 4096;
-constexpr int kSunMuCount = 256, kAltitudeCount = 64;            // transmittance table
+constexpr int kSunMuCount = 256, kAltitudeCount = 64;  // transmittance table
 constexpr int kDepthSteps = 24;
 constexpr int kScatterMuCount = 32, kScatterAltitudeCount = 32;  // multiple scattering table
 constexpr int kScatterSteps = 12, kScatterAzimuthCount = 4;
 
-const double kHorizonKm = std::sqrt(kTopKm * kTopKm - kGroundKm * kGroundKm);   // from the ground along the horizon to space
+const double kHorizonKm =
+    std::sqrt(kTopKm * kTopKm - kGroundKm * kGroundKm);  // from the ground along the horizon to space
 
 Vec3 expNegative(Vec3 depth) { return {std::exp(-depth.x), std::exp(-depth.y), std::exp(-depth.z)}; }
 
@@ -79,13 +82,14 @@ Level levelOf(double r) {
 }
 
 Atmosphere::Atmosphere(double turbidity) {
-    const double aerosol = (turbidity - 1) * double(kRayleigh.y) * kRayleighHeight / kMieHeight;   // 1/km at 550 nm
+    const double aerosol = (turbidity - 1) * double(kRayleigh.y) * kRayleighHeight / kMieHeight;  // 1/km at 550 nm
     mieExtinction_ = Vec3{std::pow(550.0f / 680, kAngstrom), 1, std::pow(550.0f / 440, kAngstrom)} * float(aerosol);
     mieScattering_ = mieExtinction_ * kMieAlbedo;
     densities_.resize(kDensityCount);
     for (int i = 0; i < kDensityCount; ++i) {
         const double altitude = (kTopKm - kGroundKm) * i / (kDensityCount - 1);
-        densities_[std::size_t(i)] = {float(std::exp(-altitude / kRayleighHeight)), float(std::exp(-altitude / kMieHeight)),
+        densities_[std::size_t(i)] = {float(std::exp(-altitude / kRayleighHeight)),
+                                      float(std::exp(-altitude / kMieHeight)),
                                       float(std::max(0.0, 1 - std::abs(altitude - kOzoneCenter) / kOzoneHalfWidth))};
     }
     fillTransmittance();
@@ -102,13 +106,14 @@ AirSample Atmosphere::sample(double altitudeKm) const {
 Vec3 Atmosphere::densityIntegral(double closest, double from, double to) const {
     double sum[3]{};
     for (int i = 0; i < kDepthSteps; ++i) {
-        const double u = (i + 0.5) / kDepthSteps;   // cubic spacing: steps are short where the air is dense
+        const double u = (i + 0.5) / kDepthSteps;  // cubic spacing: steps are short where the air is dense
         const double s = from + (to - from) * u * u * u;
         const double altitude = std::sqrt(closest * closest + s * s) - kGroundKm;
         const TableSpot spot = spotIn(altitude / (kTopKm - kGroundKm), kDensityCount);
         const Vec3 density = lerp(densities_[std::size_t(spot.i)], densities_[std::size_t(spot.i) + 1], spot.t);
         const double weight = 3 * u * u * (to - from) / kDepthSteps;
-        sum[0] += weight * double(density.x), sum[1] += weight * double(density.y), sum[2] += weight * double(density.z);
+        sum[0] += weight * double(density.x), sum[1] += weight * double(density.y),
+            sum[2] += weight * double(density.z);
     }
     return {float(sum[0]), float(sum[1]), float(sum[2])};
 }
@@ -139,7 +144,8 @@ Vec3 Atmosphere::sunlight(const Level& level, double mu) const {
     const double visible = (mu - level.muHorizon) / level.penumbra + 0.5;
     if (visible <= 0) return {};
     const double unitMu = (distanceToTop(level.r, mu) - level.shortest) / (level.longest - level.shortest);
-    const Vec3 t = bilinear(transmittance_, kSunMuCount, spotIn(level.unit, kAltitudeCount), spotIn(unitMu, kSunMuCount));
+    const Vec3 t =
+        bilinear(transmittance_, kSunMuCount, spotIn(level.unit, kAltitudeCount), spotIn(unitMu, kSunMuCount));
     if (visible >= 1) return t;
     return t * float(visible * visible * (3 - 2 * visible));
 }
@@ -159,7 +165,7 @@ Ray traceAir(const Atmosphere& air, double r, double mu) {
         step.level = levelOf(std::sqrt(r * r + step.distance * step.distance + 2 * r * step.distance * mu));
         const AirSample here = air.sample(step.level.r - kGroundKm);
         const Vec3 kept = expNegative(here.extinction * float(stepLength));
-        const auto share = [&](float fraction, float extinction) {   // integral of exp(-extinction s) over the step
+        const auto share = [&](float fraction, float extinction) {  // integral of exp(-extinction s) over the step
             return extinction > 1e-9f ? (1 - fraction) / extinction : float(stepLength);
         };
         const Vec3 weight = reached * Vec3{share(kept.x, here.extinction.x), share(kept.y, here.extinction.y),
@@ -192,7 +198,8 @@ Vec3 MultipleScattering::at(const Level& level, double sunMu) const {
 
 namespace {
 
-// Light of the second order that comes along one direction, and the part of evenly spread light that scatters into it once more.
+// Light of the second order that comes along one direction, and the part of evenly spread light that scatters into it
+// once more.
 struct Orders {
     Vec3 second, transfer;
 };
@@ -200,7 +207,7 @@ struct Orders {
 Orders gather(const Atmosphere& air, double r, double mu, double sunMu, Vec3 groundAlbedo) {
     const double ground = distanceToGround(r, mu), length = ground >= 0 ? ground : distanceToTop(r, mu);
     const double sine = std::sqrt(std::max(0.0, 1 - mu * mu)) * std::sqrt(std::max(0.0, 1 - sunMu * sunMu));
-    double cosines[kScatterAzimuthCount];   // between the direction and the sun
+    double cosines[kScatterAzimuthCount];  // between the direction and the sun
     for (int k = 0; k < kScatterAzimuthCount; ++k)
         cosines[k] = mu * sunMu + sine * std::cos(kPiD * (k + 0.5) / kScatterAzimuthCount);
     Orders sum;
@@ -243,12 +250,13 @@ Vec3 MultipleScattering::solve(const Atmosphere& air, double r, double sunMu, Ve
         for (int i = 0; i < 4; ++i) {
             const double radius = (ends[half + 1] - ends[half]) / 2, middle = (ends[half + 1] + ends[half]) / 2;
             const Orders along = gather(air, r, middle + radius * kGaussPoints[i], sunMu, groundAlbedo);
-            const float weight = float(kGaussWeights[i] * radius / 2);   // the sphere's mean: half the integral over the cosine
+            const float weight =
+                float(kGaussWeights[i] * radius / 2);  // the sphere's mean: half the integral over the cosine
             mean.second += along.second * weight;
             mean.transfer += along.transfer * weight;
         }
     const Vec3 t = min(mean.transfer, {0.99f, 0.99f, 0.99f});
-    return mean.second * Vec3{1 / (1 - t.x), 1 / (1 - t.y), 1 / (1 - t.z)};   // all orders: a geometric series
+    return mean.second * Vec3{1 / (1 - t.x), 1 / (1 - t.y), 1 / (1 - t.z)};  // all orders: a geometric series
 }
 
 }  // namespace shoal::light

@@ -1,8 +1,10 @@
-// A clear sky as a lat-long map: single scattering marched along every ray, all further orders from a table (atmosphere.cpp).
-//   [Bruneton & Neyret 2008], [Hillaire 2020] as there; [Bruneton 2017] A Qualitative and Quantitative Evaluation of 8 Clear Sky
-//   Models: phase functions and constants.
+// A clear sky as a lat-long map: single scattering marched along every ray, all further orders from a table
+// (atmosphere.cpp).
+//   [Bruneton & Neyret 2008], [Hillaire 2020] as there; [Bruneton 2017] A Qualitative and Quantitative Evaluation of 8
+//   Clear Sky Models: phase functions and constants.
 // Everything is integrated at 680, 550 and 440 nm and becomes Rec. 709 at the end (sky_color.cpp).
-// The picture is symmetric about the sun's azimuth: rows are integrated over half a turn and both halves read from that.
+// The picture is symmetric about the sun's azimuth: rows are integrated over half a turn and both halves read from
+// that.
 #include <shoal/light/environment.h>
 
 #include <algorithm>
@@ -18,9 +20,10 @@
 namespace shoal::light {
 namespace {
 
-constexpr double kEyeKm = kGroundKm + 0.2;   // from a hill: the air before the ground makes the horizon soft
-constexpr float kMieG = 0.8f;                // mean cosine of aerosol scattering
-constexpr float kNightSky = 2e-6f;           // 1/sr, of the sun above the air: airglow and stars, so that night is dim, not black
+constexpr double kEyeKm = kGroundKm + 0.2;  // from a hill: the air before the ground makes the horizon soft
+constexpr float kMieG = 0.8f;               // mean cosine of aerosol scattering
+constexpr float kNightSky =
+    2e-6f;  // 1/sr, of the sun above the air: airglow and stars, so that night is dim, not black
 constexpr Vec3 kNightColor{0.6f, 0.8f, 1.25f};
 
 float rayleighPhase(float cosine) { return 3 / (16 * kPi) * (1 + cosine * cosine); }
@@ -41,7 +44,8 @@ struct SkyModel {
           multiple(air, sunMu, groundAlbedo) {}
 };
 
-// Light scattered towards the eye along a ray with zenith cosine mu, cosAzimuth from the sun, per unit of the sun's irradiance.
+// Light scattered towards the eye along a ray with zenith cosine mu, cosAzimuth from the sun, per unit of the sun's
+// irradiance.
 Vec3 inscatter(const SkyModel& sky, const Ray& ray, double mu, double cosAzimuth) {
     const double cosine = mu * sky.sunMu + std::sqrt(std::max(0.0, 1 - mu * mu)) * sky.sunSine * cosAzimuth;
     const float rayleigh = rayleighPhase(float(cosine)), mie = miePhase(float(cosine));
@@ -57,13 +61,14 @@ Vec3 inscatter(const SkyModel& sky, const Ray& ray, double mu, double cosAzimuth
 
 double muOfRow(int y, int height) { return std::cos((y + 0.5) / height * kPiD); }
 
-// Rows over half a turn of azimuth, from the sun's side to the other; three wavelengths, per unit of the sun's irradiance above the air.
+// Rows over half a turn of azimuth, from the sun's side to the other; three wavelengths, per unit of the sun's
+// irradiance above the air.
 struct HalfSky {
     int azimuthCount;
     std::vector<Vec3> radiance;
     // Columns are dense near the sun, where its glow is.
     double azimuthOf(double column) const { return kPiD * column * column / ((azimuthCount - 1) * (azimuthCount - 1)); }
-    Vec3 at(int row, double azimuth) const {   // azimuth from the sun, 0 to pi
+    Vec3 at(int row, double azimuth) const {  // azimuth from the sun, 0 to pi
         const double x = std::sqrt(std::clamp(azimuth / kPiD, 0.0, 1.0)) * (azimuthCount - 1);
         const int i = std::min(int(x), azimuthCount - 2);
         const Vec3* p = radiance.data() + std::size_t(row) * std::size_t(azimuthCount) + i;
@@ -87,7 +92,7 @@ Vec3 skyIrradiance(const HalfSky& half, int height) {
     double sum[3]{};
     for (int row = 0; row < height / 2; ++row) {
         const double c0 = std::cos(kPiD * row / height), c1 = std::cos(kPiD * (row + 1) / height);
-        const double weight = (c0 * c0 - c1 * c1) / 2;   // of cosine and solid angle, per radian of azimuth
+        const double weight = (c0 * c0 - c1 * c1) / 2;  // of cosine and solid angle, per radian of azimuth
         for (int i = 0; i < half.azimuthCount; ++i) {
             const Vec3 l = half.radiance[std::size_t(row) * std::size_t(half.azimuthCount) + std::size_t(i)];
             const double to = half.azimuthOf(std::min(i + 0.5, half.azimuthCount - 1.0));
@@ -137,8 +142,10 @@ ClearSky makeClearSky(Vec3 toSun, float turbidity, Vec3 groundAlbedo, int height
 
     ClearSky out;
     out.sun.toSun = toSun;
-    if (toSun.y > 0) out.sun.irradiance = colorOfThreeWavelengths(sunlight) * sunAboveAir;
-    else out.sun.irradiance = {0, 0, 0};
+    if (toSun.y > 0)
+        out.sun.irradiance = colorOfThreeWavelengths(sunlight) * sunAboveAir;
+    else
+        out.sun.irradiance = {0, 0, 0};
     out.environment = mapOf(half, toSun, height, sunAboveAir);
     return out;
 }

@@ -1,7 +1,8 @@
 // Lat-long environment maps: look-up, and projection on spherical harmonics.
 //   [Ramamoorthi & Hanrahan 2001] An Efficient Representation for Irradiance Environment Maps, SIGGRAPH.
-// Departs in one point: texels are patches of constant radiance, and the harmonics are integrated over them in closed form (they are
-// products of a polynomial in sin and cos of the polar angle and one of the azimuth), so a constant map has no quadrature error.
+// Departs in one point: texels are patches of constant radiance, and the harmonics are integrated over them in closed
+// form (they are products of a polynomial in sin and cos of the polar angle and one of the azimuth), so a constant map
+// has no quadrature error.
 #include <shoal/light/environment.h>
 
 #include <vector>
@@ -19,7 +20,8 @@ constexpr double kY2 = 1.0925484305920792;
 constexpr double kY20 = 0.31539156525252005;
 constexpr double kY22 = 0.54627421529603959;
 
-// Integrals over one column of texels of 1, a, b, b2, a*b with a = sin, b = -cos of the world azimuth: x = a sin(polar), z = b sin(polar).
+// Integrals over one column of texels of 1, a, b, b2, a*b with a = sin, b = -cos of the world azimuth: x = a
+// sin(polar), z = b sin(polar).
 struct ColumnIntegrals {
     double one, a, b, bb, ab;
 };
@@ -88,8 +90,7 @@ Sums projectRow(const Image& map, int y, const std::vector<ColumnIntegrals>& col
 }  // namespace
 
 Vec3 directionOfTexel(const Environment& environment, int x, int y) {
-    const double azimuth =
-        ((x + 0.5) / environment.radiance.width - 0.5) * 2 * kPiD - double(environment.rotation);
+    const double azimuth = ((x + 0.5) / environment.radiance.width - 0.5) * 2 * kPiD - double(environment.rotation);
     const double polar = (y + 0.5) / environment.radiance.height * kPiD;
     const double s = std::sin(polar);
     return {float(s * std::sin(azimuth)), float(std::cos(polar)), float(-s * std::cos(azimuth))};

@@ -1,7 +1,7 @@
 // Finds the sun's disc in an environment map and takes it out.
-// A sun is the brightest texel and what hangs together with it, when that is small (a lamp in a studio is larger than 3 degrees), far
-// brighter than the sky around it (an overcast sky's brightest cloud is not), and carries a part of the map's light that one would
-// miss (a street lamp far away does not).
+// A sun is the brightest texel and what hangs together with it, when that is small (a lamp in a studio is larger than 3
+// degrees), far brighter than the sky around it (an overcast sky's brightest cloud is not), and carries a part of the
+// map's light that one would miss (a street lamp far away does not).
 #include <shoal/light/environment.h>
 
 #include <vector>
@@ -11,17 +11,18 @@
 namespace shoal::light {
 namespace {
 
-constexpr double kLargestRadius = 3.0 * kPiD / 180;   // radians; blurred by clouds, leaves and the camera, not the disc's 0.27 degrees
-constexpr double kRingInner = 4.0 * kPiD / 180, kRingOuter = 8.0 * kPiD / 180;   // where the surroundings are measured
-constexpr double kLeastContrast = 20;       // brightest texel to mean of the ring
-constexpr double kLeastShare = 0.01;        // of the whole sphere's flux
-constexpr double kCoreThreshold = 0.1;      // of the peak: what must be small
-constexpr double kGlareThreshold = 2;       // times the ring: what is taken out
+constexpr double kLargestRadius =
+    3.0 * kPiD / 180;  // radians; blurred by clouds, leaves and the camera, not the disc's 0.27 degrees
+constexpr double kRingInner = 4.0 * kPiD / 180, kRingOuter = 8.0 * kPiD / 180;  // where the surroundings are measured
+constexpr double kLeastContrast = 20;                                           // brightest texel to mean of the ring
+constexpr double kLeastShare = 0.01;                                            // of the whole sphere's flux
+constexpr double kCoreThreshold = 0.1;                                          // of the peak: what must be small
+constexpr double kGlareThreshold = 2;                                           // times the ring: what is taken out
 
 struct Map {
     const Environment& environment;
     const Image& image;
-    double texelSize;   // radians
+    double texelSize;  // radians
     double luminance(int x, int y) const {
         const float* p = image.at(x, y);
         return double(shoal::luminance({p[0], p[1], p[2]}));
@@ -69,8 +70,8 @@ double meanOfRing(const Map& map, Vec3 center) {
 
 struct Region {
     std::vector<IVec2> texels;
-    std::vector<IVec2> border;   // neighbours that are not in it
-    double radius = 0;           // largest angle from the seed
+    std::vector<IVec2> border;  // neighbours that are not in it
+    double radius = 0;          // largest angle from the seed
 };
 
 // Texels that hang together with `seed`, are brighter than `threshold` and within `limit` radians of it.

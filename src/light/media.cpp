@@ -4,7 +4,7 @@
 namespace shoal::light {
 
 float henyeyGreenstein(float cosTheta, float g) {
-    const float base = std::max(1 + g * g - 2 * g * cosTheta, 1e-6f);   // zero only straight on for |g| = 1
+    const float base = std::max(1 + g * g - 2 * g * cosTheta, 1e-6f);  // zero only straight on for |g| = 1
     return (1 - g * g) / (4 * kPi * base * std::sqrt(base));
 }
 

@@ -36,7 +36,8 @@ Mat4 clipFromViewOf(const Camera& camera, int width, int height) {
 Camera cameraLookingAt(Vec3 eye, Vec3 target, float verticalFov, Vec3 up) {
     Camera camera;
     camera.worldFromView = rigidInverse(lookAt(eye, target, up));
-    // The translation is the eye itself; the round trip through the inverse would lose its last bits far from the origin.
+    // The translation is the eye itself; the round trip through the inverse would lose its last bits far from the
+    // origin.
     camera.worldFromView(0, 3) = eye.x;
     camera.worldFromView(1, 3) = eye.y;
     camera.worldFromView(2, 3) = eye.z;
@@ -63,7 +64,8 @@ View makeView(const Camera& camera, int width, int height) {
 }
 
 Mat4 jittered(const View& view, float xPx, float yPx) {
-    // Moving clip x by d * clip w moves the picture by d in normalised coordinates, perspective or not; a pixel is 2 / width.
+    // Moving clip x by d * clip w moves the picture by d in normalised coordinates, perspective or not; a pixel is 2 /
+    // width.
     Mat4 out = view.clipFromView;
     for (int column = 0; column < 4; ++column) {
         out(0, column) += 2 * xPx / float(view.width) * view.clipFromView(3, column);

@@ -39,7 +39,8 @@ TEST(LightMaps, SunsAreFoundWhereTheyAre) {
 }
 
 TEST(LightMaps, NoSunIsMadeUp) {
-    // Overcast; studio lamps; night with street lamps; a sun behind foliage; a dawn whose sun is behind haze 20 degrees wide.
+    // Overcast; studio lamps; night with street lamps; a sun behind foliage; a dawn whose sun is behind haze 20 degrees
+    // wide.
     for (const char* name : {"potsdamer_platz_1k.hdr", "studio_small_03_1k.hdr", "dikhololo_night_1k.hdr",
                              "blender_courtyard.exr", "kiara_1_dawn_1k.hdr"}) {
         light::Environment map = readMap(name);

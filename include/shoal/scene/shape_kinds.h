@@ -1,7 +1,8 @@
-// The procedural shapes as structs: what each kind takes, with a function that makes it. makeShape (shapes.h) is the same by name.
-// All stand on y = 0 with their middle at the origin unless a sentence says otherwise; metres; colours linear. Models keep the
-// promises of core/model.h: unit normals, tangents where a material has a normal map, counter-clockwise triangles. Same parameters,
-// same bits, on any number of threads. Errors name the first field out of range.
+// The procedural shapes as structs: what each kind takes, with a function that makes it. makeShape (shapes.h) is the
+// same by name. All stand on y = 0 with their middle at the origin unless a sentence says otherwise; metres; colours
+// linear. Models keep the promises of core/model.h: unit normals, tangents where a material has a normal map,
+// counter-clockwise triangles. Same parameters, same bits, on any number of threads. Errors name the first field out of
+// range.
 #pragma once
 
 #include <cstdint>
@@ -17,16 +18,21 @@ namespace shoal::scene {
 
 // What the simple shapes are made of.
 struct ShapeSurface {
-    std::string surface = "plain";   // textures: tiling, in metres, whatever the shape's size
+    std::string surface = "plain";  // textures: tiling, in metres, whatever the shape's size
     Vec3 color{0.8f, 0.8f, 0.8f};
-    float roughness = 0.5f, metallic = 0;   // of "plain"; the others bring their own
+    float roughness = 0.5f, metallic = 0;  // of "plain"; the others bring their own
     float transmission = 0, ior = 1.5f;
     Vec3 emission{0, 0, 0};
 };
 template <class P, class V>
-    requires std::is_same_v<std::remove_const_t<P>, ShapeSurface>
+requires std::is_same_v<std::remove_const_t<P>, ShapeSurface>
 void visit(P& p, V&& v) {
-    v(p.surface, Field{"surface", "", -1e30, 1e30, "what it is made of", {"plain", "wood", "stone", "concrete", "sand", "grit", "tiles"}});
+    v(p.surface, Field{"surface",
+                       "",
+                       -1e30,
+                       1e30,
+                       "what it is made of",
+                       {"plain", "wood", "stone", "concrete", "sand", "grit", "tiles"}});
     v(p.color, Field{"color", "", 0, 1, "linear base colour; tints a textured surface"});
     v(p.roughness, Field{"roughness", "", 0, 1, "of a plain surface: 0 mirror, 1 matt"});
     v(p.metallic, Field{"metallic", "", 0, 1, "of a plain surface: 1 is metal"});
@@ -40,7 +46,7 @@ struct PlaneShape {
     ShapeSurface look;
 };
 template <class P, class V>
-    requires std::is_same_v<std::remove_const_t<P>, PlaneShape>
+requires std::is_same_v<std::remove_const_t<P>, PlaneShape>
 void visit(P& p, V&& v) {
     v(p.width, Field{"width", "m", 0.001, 1e5, "along x"});
     v(p.depth, Field{"depth", "m", 0.001, 1e5, "along z"});
@@ -54,7 +60,7 @@ struct BoxShape {
     ShapeSurface look;
 };
 template <class P, class V>
-    requires std::is_same_v<std::remove_const_t<P>, BoxShape>
+requires std::is_same_v<std::remove_const_t<P>, BoxShape>
 void visit(P& p, V&& v) {
     v(p.size, Field{"size", "m", 0.001, 1e5, "width, height and depth"});
     v(p.bevel, Field{"bevel", "m", 0, 1e4, "how far edges are rounded"});
@@ -68,7 +74,7 @@ struct SphereShape {
     ShapeSurface look;
 };
 template <class P, class V>
-    requires std::is_same_v<std::remove_const_t<P>, SphereShape>
+requires std::is_same_v<std::remove_const_t<P>, SphereShape>
 void visit(P& p, V&& v) {
     v(p.radius, Field{"radius", "m", 0.001, 1e5, "of the sphere, which lies on y = 0"});
     v(p.segments, Field{"segments", "", 8, 512, "facets around"});
@@ -82,7 +88,7 @@ struct CylinderShape {
     ShapeSurface look;
 };
 template <class P, class V>
-    requires std::is_same_v<std::remove_const_t<P>, CylinderShape>
+requires std::is_same_v<std::remove_const_t<P>, CylinderShape>
 void visit(P& p, V&& v) {
     v(p.radius, Field{"radius", "m", 0.001, 1e5, "of the cylinder"});
     v(p.height, Field{"height", "m", 0.001, 1e5, "along y"});
@@ -101,14 +107,15 @@ struct TerrainShape {
     std::uint32_t seed = 1;
 };
 template <class P, class V>
-    requires std::is_same_v<std::remove_const_t<P>, TerrainShape>
+requires std::is_same_v<std::remove_const_t<P>, TerrainShape>
 void visit(P& p, V&& v) {
     v(p.size, Field{"size", "m", 1, 1e5, "along x and z"});
     v(p.height, Field{"height", "m", 0, 1e4, "of the highest ground above y = 0"});
     v(p.roughness, Field{"roughness", "", 0, 1, "0 rolling, 1 rugged"});
     v(p.island, Field{"island", "", 0, 1, "falls off into a sea whose surface would be y = 0"});
     v(p.seaDepth, Field{"seaDepth", "m", 0, 1e4, "of the sea floor round an island"});
-    v(p.grassLine, Field{"grassLine", "m", -1e4, 1e4, "height where sand gives way to grass; hills without island: no sand"});
+    v(p.grassLine,
+      Field{"grassLine", "m", -1e4, 1e4, "height where sand gives way to grass; hills without island: no sand"});
     v(p.cells, Field{"cells", "", 8, 1024, "grid cells along a side"});
     v(p.rocks, Field{"rocks", "", 0, 2000, "boulders scattered on it"});
     v(p.bushes, Field{"bushes", "", 0, 5000, "shrubs on the grass"});
@@ -125,7 +132,7 @@ struct RocksShape {
     std::uint32_t seed = 1;
 };
 template <class P, class V>
-    requires std::is_same_v<std::remove_const_t<P>, RocksShape>
+requires std::is_same_v<std::remove_const_t<P>, RocksShape>
 void visit(P& p, V&& v) {
     v(p.count, Field{"count", "", 1, 5000, "how many"});
     v(p.area, Field{"area", "m", 0, 1e5, "they lie within, along x and z"});
@@ -145,7 +152,7 @@ struct TankShape {
     std::uint32_t seed = 1;
 };
 template <class P, class V>
-    requires std::is_same_v<std::remove_const_t<P>, TankShape>
+requires std::is_same_v<std::remove_const_t<P>, TankShape>
 void visit(P& p, V&& v) {
     v(p.width, Field{"width", "m", 0.1, 1000, "inside, along x"});
     v(p.depth, Field{"depth", "m", 0.1, 1000, "inside, along z"});
@@ -167,7 +174,7 @@ struct PierShape {
     std::uint32_t seed = 1;
 };
 template <class P, class V>
-    requires std::is_same_v<std::remove_const_t<P>, PierShape>
+requires std::is_same_v<std::remove_const_t<P>, PierShape>
 void visit(P& p, V&& v) {
     v(p.length, Field{"length", "m", 1, 1000, "from z = 0 towards -z"});
     v(p.width, Field{"width", "m", 0.5, 100, "along x"});
@@ -188,7 +195,7 @@ struct QuayShape {
     std::uint32_t seed = 1;
 };
 template <class P, class V>
-    requires std::is_same_v<std::remove_const_t<P>, QuayShape>
+requires std::is_same_v<std::remove_const_t<P>, QuayShape>
 void visit(P& p, V&& v) {
     v(p.length, Field{"length", "m", 2, 1000, "along x"});
     v(p.width, Field{"width", "m", 1, 500, "of the paved land, towards -z"});
@@ -211,7 +218,7 @@ struct HallShape {
     std::uint32_t seed = 1;
 };
 template <class P, class V>
-    requires std::is_same_v<std::remove_const_t<P>, HallShape>
+requires std::is_same_v<std::remove_const_t<P>, HallShape>
 void visit(P& p, V&& v) {
     v(p.length, Field{"length", "m", 4, 500, "along z"});
     v(p.width, Field{"width", "m", 4, 200, "along x"});
@@ -235,11 +242,12 @@ struct PlazaShape {
     std::uint32_t seed = 1;
 };
 template <class P, class V>
-    requires std::is_same_v<std::remove_const_t<P>, PlazaShape>
+requires std::is_same_v<std::remove_const_t<P>, PlazaShape>
 void visit(P& p, V&& v) {
     v(p.size, Field{"size", "m", 8, 300, "along x and z"});
     v(p.slabSize, Field{"slabSize", "m", 0.2, 5, "of a paving slab"});
-    v(p.pattern, Field{"pattern", "", -1e30, 1e30, "how the slabs are coloured", {"rings", "checker", "bands", "plain"}});
+    v(p.pattern,
+      Field{"pattern", "", -1e30, 1e30, "how the slabs are coloured", {"rings", "checker", "bands", "plain"}});
     v(p.center, Field{"center", "", -1e30, 1e30, "what stands in the middle", {"fountain", "statue", "none"}});
     v(p.benches, Field{"benches", "", 0, 100, "round the middle"});
     v(p.lamps, Field{"lamps", "", 0, 100, "near the edge"});

@@ -10,13 +10,20 @@ using namespace shapes;
 
 int addLook(ModelBuilder& builder, const ShapeSurface& look) {
     int index = 0;
-    if (look.surface == "wood") index = builder.addMaterial("wood", look.color, makeWood(1));
-    else if (look.surface == "stone") index = builder.addMaterial("stone", look.color, makeStone(1));
-    else if (look.surface == "concrete") index = builder.addMaterial("concrete", look.color, makeConcrete(1));
-    else if (look.surface == "sand") index = builder.addMaterial("sand", look.color, makeSand(1));
-    else if (look.surface == "grit") index = builder.addMaterial("grit", look.color, makeGrit(1));
-    else if (look.surface == "tiles") index = builder.addMaterial("tiles", look.color, makeTiles(1, 0.2f, 8));
-    else index = builder.addMaterial("plain", look.color, look.roughness, look.metallic);
+    if (look.surface == "wood")
+        index = builder.addMaterial("wood", look.color, makeWood(1));
+    else if (look.surface == "stone")
+        index = builder.addMaterial("stone", look.color, makeStone(1));
+    else if (look.surface == "concrete")
+        index = builder.addMaterial("concrete", look.color, makeConcrete(1));
+    else if (look.surface == "sand")
+        index = builder.addMaterial("sand", look.color, makeSand(1));
+    else if (look.surface == "grit")
+        index = builder.addMaterial("grit", look.color, makeGrit(1));
+    else if (look.surface == "tiles")
+        index = builder.addMaterial("tiles", look.color, makeTiles(1, 0.2f, 8));
+    else
+        index = builder.addMaterial("plain", look.color, look.roughness, look.metallic);
     Material& material = builder.material(index);
     material.transmission = look.transmission;
     material.ior = look.ior;
@@ -43,14 +50,16 @@ Result<Model> makeBox(const BoxShape& shape) {
 Result<Model> makeSphere(const SphereShape& shape) {
     SHOAL_TRY(validate(shape));
     ModelBuilder builder("sphere");
-    addSphere(builder.part(addLook(builder, shape.look)), Frame{}.at({0, shape.radius, 0}), shape.radius, shape.segments);
+    addSphere(builder.part(addLook(builder, shape.look)), Frame{}.at({0, shape.radius, 0}), shape.radius,
+              shape.segments);
     return builder.finish();
 }
 
 Result<Model> makeCylinder(const CylinderShape& shape) {
     SHOAL_TRY(validate(shape));
     ModelBuilder builder("cylinder");
-    addCylinder(builder.part(addLook(builder, shape.look)), {}, shape.radius, shape.height, shape.bevel, shape.segments);
+    addCylinder(builder.part(addLook(builder, shape.look)), {}, shape.radius, shape.height, shape.bevel,
+                shape.segments);
     return builder.finish();
 }
 

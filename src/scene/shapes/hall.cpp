@@ -28,17 +28,21 @@ struct Hall {
 void addFloor(Hall& hall, Dice& dice) {
     Part& part = hall.builder.part(hall.concreteFloor);
     part.color = {0.35f, 0.35f, 0.34f};
-    addStandingBox(part, Frame{}.at({0, -0.25f, 0}), {2 * hall.halfWidth + 0.5f, 0.24f, 2 * hall.halfLength + 0.5f}, 0.02f);
-    const int across = std::max(1, int(std::round(hall.shape.width / 5))), along = std::max(1, int(std::round(hall.shape.length / 5)));
+    addStandingBox(part, Frame{}.at({0, -0.25f, 0}), {2 * hall.halfWidth + 0.5f, 0.24f, 2 * hall.halfLength + 0.5f},
+                   0.02f);
+    const int across = std::max(1, int(std::round(hall.shape.width / 5))),
+              along = std::max(1, int(std::round(hall.shape.length / 5)));
     const float w = hall.shape.width / float(across), l = hall.shape.length / float(along);
     for (int i = 0; i < across; ++i)
         for (int k = 0; k < along; ++k) {
             part.color = Vec3{1.0f, 0.99f, 0.96f} * dice.range(0.82f, 1.0f);
             part.uvOffset = {dice.unit(), dice.unit()};
-            addSlab(part, Frame{}.at({-hall.halfWidth + w * (float(i) + 0.5f), 0, -hall.halfLength + l * (float(k) + 0.5f)}), w / 2 - 0.005f, l / 2 - 0.005f, 0.006f);
+            addSlab(part,
+                    Frame{}.at({-hall.halfWidth + w * (float(i) + 0.5f), 0, -hall.halfLength + l * (float(k) + 0.5f)}),
+                    w / 2 - 0.005f, l / 2 - 0.005f, 0.006f);
         }
     Part& paint = hall.builder.part(hall.palette.paint);
-    paint.color = {0.62f, 0.44f, 0.05f};   // worn yellow lines along the aisle
+    paint.color = {0.62f, 0.44f, 0.05f};  // worn yellow lines along the aisle
     for (const float s : {-1.0f, 1.0f})
         addStandingBox(paint, Frame{}.at({s * 1.7f, -0.004f, 0}), {0.1f, 0.007f, 2 * hall.halfLength - 0.6f}, 0);
 }
@@ -55,7 +59,8 @@ void addFrames(Hall& hall) {
     Part& steel = hall.builder.part(hall.palette.steel);
     Part& concrete = hall.builder.part(hall.palette.concrete);
     for (int i = 0; i <= hall.shape.bays; ++i) {
-        const float z = std::clamp(hall.frameZ(i), -hall.halfLength + 0.15f, hall.halfLength - 0.15f), x = hall.halfWidth - 0.2f;
+        const float z = std::clamp(hall.frameZ(i), -hall.halfLength + 0.15f, hall.halfLength - 0.15f),
+                    x = hall.halfWidth - 0.2f;
         for (const float s : {-1.0f, 1.0f}) {
             steel.color = {0.13f, 0.22f, 0.26f};
             addIBeam(steel, {s * x, 0.3f, z}, {s * x, hall.shape.height, z}, 0.3f, 0.2f, {1, 0, 0});
@@ -86,7 +91,8 @@ void addFrames(Hall& hall) {
 // One wall of panels from a to b (left to right seen from outside), with a band of windows.
 void addSideWall(Hall& hall, Vec3 a, Vec3 b, Vec3 outward, Dice& dice) {
     const Vec3 along = normalize(b - a);
-    const float length = shoal::length(b - a), top = hall.shape.height, sill = hall.windowBottom(), head = hall.windowTop();
+    const float length = shoal::length(b - a), top = hall.shape.height, sill = hall.windowBottom(),
+                head = hall.windowTop();
     Part& concrete = hall.builder.part(hall.palette.concrete);
     concrete.color = {0.85f, 0.85f, 0.83f};
     addBeam(concrete, a + Vec3{0, kPlinth / 2, 0}, b + Vec3{0, kPlinth / 2, 0}, 0.22f, kPlinth, 0.015f);
@@ -97,10 +103,12 @@ void addSideWall(Hall& hall, Vec3 a, Vec3 b, Vec3 outward, Dice& dice) {
     for (int i = 0; i < count; ++i) {
         const float x = width * (float(i) + 0.5f);
         panels.color = Vec3{0.60f, 0.66f, 0.68f} * dice.range(0.93f, 1.05f);
-        addBox(panels, frame.at({x, (kPlinth + sill) / 2, 0}), {width / 2 - 0.004f, (sill - kPlinth) / 2, 0.045f}, 0.012f);
+        addBox(panels, frame.at({x, (kPlinth + sill) / 2, 0}), {width / 2 - 0.004f, (sill - kPlinth) / 2, 0.045f},
+               0.012f);
         addBox(panels, frame.at({x, (head + top) / 2, 0}), {width / 2 - 0.004f, (top - head) / 2, 0.045f}, 0.012f);
-        for (const float rib : {-0.25f, 0.0f, 0.25f})   // ribs outside stiffen the sheet
-            addBox(panels, frame.at({x + rib * width, (kPlinth + sill) / 2, 0.05f}), {0.035f, (sill - kPlinth) / 2 - 0.01f, 0.02f}, 0.015f);
+        for (const float rib : {-0.25f, 0.0f, 0.25f})  // ribs outside stiffen the sheet
+            addBox(panels, frame.at({x + rib * width, (kPlinth + sill) / 2, 0.05f}),
+                   {0.035f, (sill - kPlinth) / 2 - 0.01f, 0.02f}, 0.015f);
     }
     Part& steel = hall.builder.part(hall.palette.steel);
     steel.color = {0.75f, 0.76f, 0.76f};
@@ -108,7 +116,8 @@ void addSideWall(Hall& hall, Vec3 a, Vec3 b, Vec3 outward, Dice& dice) {
         const float x = std::min(length, width * float(i)), wide = i % 3 == 0 ? 0.08f : 0.035f;
         addBox(steel, frame.at({x, (sill + head) / 2, 0}), {wide / 2, (head - sill) / 2, 0.04f}, 0.006f);
     }
-    for (const float y : {sill, (sill + head) / 2, head}) addBeam(steel, a + Vec3{0, y, 0}, b + Vec3{0, y, 0}, 0.09f, 0.045f, 0.006f);
+    for (const float y : {sill, (sill + head) / 2, head})
+        addBeam(steel, a + Vec3{0, y, 0}, b + Vec3{0, y, 0}, 0.09f, 0.045f, 0.006f);
 }
 
 // The wall of an end up to the roof's slope, in upright panels; a gate in the middle where `gate`.
@@ -132,7 +141,8 @@ void addGable(Hall& hall, float z, bool gate, Dice& dice) {
     Part& steel = hall.builder.part(hall.palette.steel);
     steel.color = {0.65f, 0.33f, 0.05f};
     const float x = std::ceil(kGateWidth / 2 / width) * width;
-    for (const float s : {-1.0f, 1.0f}) addStandingBox(steel, Frame{}.at({s * (x + 0.02f), 0, z}), {0.16f, gateHeight + 0.1f, 0.26f}, 0.015f);
+    for (const float s : {-1.0f, 1.0f})
+        addStandingBox(steel, Frame{}.at({s * (x + 0.02f), 0, z}), {0.16f, gateHeight + 0.1f, 0.26f}, 0.015f);
     addBeam(steel, {-x - 0.1f, gateHeight + 0.06f, z}, {x + 0.1f, gateHeight + 0.06f, z}, 0.26f, 0.16f, 0.015f);
 }
 
@@ -144,10 +154,11 @@ void addRoof(Hall& hall, Dice& dice) {
         const Vec3 eave{s * (hall.halfWidth + 0.25f), hall.roofY(hall.halfWidth + 0.25f), 0}, ridge{0, hall.ridge, 0};
         const Vec3 up = normalize(cross(s > 0 ? Vec3{0, 0, 1} : Vec3{0, 0, -1}, ridge - eave)) * 1.0f;
         const Vec3 normal = up.y > 0 ? up : -up;
-        const auto strip = [&](float from, float to, float z, float width) {   // from, to: 0 at the eave, 1 at the ridge
+        const auto strip = [&](float from, float to, float z, float width) {  // from, to: 0 at the eave, 1 at the ridge
             sheet.color = Vec3{0.50f, 0.51f, 0.52f} * dice.range(0.92f, 1.06f);
             const Vec3 offset = normal * 0.06f + Vec3{0, 0, z};
-            addBeam(sheet, lerp(eave, ridge, from) + offset, lerp(eave, ridge, to) + offset, width - 0.008f, 0.06f, 0.015f, normal);
+            addBeam(sheet, lerp(eave, ridge, from) + offset, lerp(eave, ridge, to) + offset, width - 0.008f, 0.06f,
+                    0.015f, normal);
         };
         for (int bay = 0; bay < hall.shape.bays; ++bay) {
             const int count = std::max(1, int(std::round(hall.bay / 1.2f)));
@@ -157,8 +168,10 @@ void addRoof(Hall& hall, Dice& dice) {
             for (int i = 0; i < count; ++i) {
                 const float z = hall.frameZ(bay) + width * (float(i) + 0.5f);
                 const bool open = light && i > 0 && i + 1 < count;
-                if (open) strip(0, 0.42f, z, width), strip(0.74f, 1, z, width);
-                else strip(0, 1, z, width);
+                if (open)
+                    strip(0, 0.42f, z, width), strip(0.74f, 1, z, width);
+                else
+                    strip(0, 1, z, width);
             }
             if (!light || count < 3) continue;
             steel.color = {0.78f, 0.79f, 0.79f};
@@ -169,17 +182,20 @@ void addRoof(Hall& hall, Dice& dice) {
             }
             for (int i = 1; i < count; ++i) {
                 const Vec3 offset = normal * 0.07f + Vec3{0, 0, hall.frameZ(bay) + width * float(i)};
-                addBeam(steel, lerp(eave, ridge, 0.42f) + offset, lerp(eave, ridge, 0.74f) + offset, 0.05f, 0.08f, 0.006f, normal);
+                addBeam(steel, lerp(eave, ridge, 0.42f) + offset, lerp(eave, ridge, 0.74f) + offset, 0.05f, 0.08f,
+                        0.006f, normal);
             }
         }
-        sheet.color = {0.45f, 0.46f, 0.47f};   // the ridge's cap
+        sheet.color = {0.45f, 0.46f, 0.47f};  // the ridge's cap
         const Vec3 cap = normal * 0.1f, down = normalize(eave - ridge) * 0.3f;
-        addBeam(sheet, ridge + down * 0.5f + cap + Vec3{0, 0, -hall.halfLength}, ridge + down * 0.5f + cap + Vec3{0, 0, hall.halfLength}, 0.36f, 0.03f, 0.008f, normal);
-        steel.color = {0.13f, 0.22f, 0.26f};   // purlins
+        addBeam(sheet, ridge + down * 0.5f + cap + Vec3{0, 0, -hall.halfLength},
+                ridge + down * 0.5f + cap + Vec3{0, 0, hall.halfLength}, 0.36f, 0.03f, 0.008f, normal);
+        steel.color = {0.13f, 0.22f, 0.26f};  // purlins
         const int purlins = std::max(2, int(slope / 1.6f));
         for (int i = 0; i <= purlins; ++i) {
             const Vec3 p = lerp(eave, ridge, 0.04f + 0.94f * float(i) / float(purlins)) - normal * 0.06f;
-            addBeam(steel, p + Vec3{0, 0, -hall.halfLength}, p + Vec3{0, 0, hall.halfLength}, 0.06f, 0.14f, 0.006f, normal);
+            addBeam(steel, p + Vec3{0, 0, -hall.halfLength}, p + Vec3{0, 0, hall.halfLength}, 0.06f, 0.14f, 0.006f,
+                    normal);
         }
     }
 }
@@ -189,7 +205,8 @@ void addPallet(Hall& hall, const Frame& base, Dice& dice) {
     wood.color = Vec3{1.05f, 0.9f, 0.7f} * woodTint(dice, 0.35f);
     wood.uvOffset = {dice.unit(), dice.unit()};
     for (const float z : {-0.34f, 0.0f, 0.34f}) addStandingBox(wood, base.at({0, 0, z}), {1.16f, 0.1f, 0.1f}, 0.004f);
-    for (int i = 0; i < 5; ++i) addStandingBox(wood, base.at({-0.52f + 0.26f * float(i), 0.1f, 0}), {0.14f, 0.022f, 0.8f}, 0.003f);
+    for (int i = 0; i < 5; ++i)
+        addStandingBox(wood, base.at({-0.52f + 0.26f * float(i), 0.1f, 0}), {0.14f, 0.022f, 0.8f}, 0.003f);
 }
 
 // Goods on a pallet, at most `high` above its foot.
@@ -199,7 +216,9 @@ void addGoods(Hall& hall, const Frame& base, float high, Dice& dice) {
     const float room = high - 0.2f;
     const int kind = dice.below(5);
     if (kind == 0) {
-        for (const float x : {-0.28f, 0.28f}) addBarrel(hall.builder, hall.palette, top.at({x, 0, dice.range(-0.05f, 0.05f)}), std::min(0.78f, room), dice);
+        for (const float x : {-0.28f, 0.28f})
+            addBarrel(hall.builder, hall.palette, top.at({x, 0, dice.range(-0.05f, 0.05f)}), std::min(0.78f, room),
+                      dice);
         return;
     }
     if (kind == 1) {
@@ -214,14 +233,17 @@ void addGoods(Hall& hall, const Frame& base, float high, Dice& dice) {
             for (int k = 0; k < 2; ++k) {
                 if (layer > 0 && layer + 1 == layers && dice.chance(0.3f)) continue;
                 const float w = 1.06f / float(across), d = 0.37f;
-                addCardboardBox(hall.builder, hall.palette, top.at({-0.53f + w * (float(i) + 0.5f), h * float(layer), (float(k) - 0.5f) * d}).turned(dice.range(-0.03f, 0.03f)),
+                addCardboardBox(hall.builder, hall.palette,
+                                top.at({-0.53f + w * (float(i) + 0.5f), h * float(layer), (float(k) - 0.5f) * d})
+                                    .turned(dice.range(-0.03f, 0.03f)),
                                 {w - 0.02f, h - 0.004f, d - 0.02f}, dice);
             }
 }
 
 // A row of racks along z with its middle at x.
 void addRackRow(Hall& hall, float x, float z0, float z1, Dice& dice) {
-    const int fields = std::max(1, int((z1 - z0) / 2.75f)), levels = std::clamp(int((hall.shape.height - 1.2f) / 1.5f), 1, 5);
+    const int fields = std::max(1, int((z1 - z0) / 2.75f)),
+              levels = std::clamp(int((hall.shape.height - 1.2f) / 1.5f), 1, 5);
     const float field = (z1 - z0) / float(fields), deep = 0.5f, high = 1.5f;
     Part& steel = hall.builder.part(hall.palette.steel);
     for (int i = 0; i <= fields; ++i) {
@@ -242,12 +264,14 @@ void addRackRow(Hall& hall, float x, float z0, float z1, Dice& dice) {
             const float from = z0 + field * float(i) + 0.045f, to = z0 + field * float(i + 1) - 0.045f;
             steel.color = {0.62f, 0.19f, 0.02f};
             if (level > 0)
-                for (const float s : {-deep, deep}) addBeam(steel, {x + s, y - 0.06f, from}, {x + s, y - 0.06f, to}, 0.05f, 0.12f, 0.006f);
+                for (const float s : {-deep, deep})
+                    addBeam(steel, {x + s, y - 0.06f, from}, {x + s, y - 0.06f, to}, 0.05f, 0.12f, 0.006f);
             const int places = std::max(1, int((to - from) / 1.3f));
             for (int place = 0; place < places; ++place) {
                 if (!dice.chance(hall.shape.fill)) continue;
                 const float z = from + (to - from) * (float(place) + 0.5f) / float(places);
-                addGoods(hall, Frame{}.at({x, y, z}).turned(kPi / 2 + dice.range(-0.03f, 0.03f)), level + 1 == levels ? 1.5f : high - 0.15f, dice);
+                addGoods(hall, Frame{}.at({x, y, z}).turned(kPi / 2 + dice.range(-0.03f, 0.03f)),
+                         level + 1 == levels ? 1.5f : high - 0.15f, dice);
             }
         }
     }
@@ -266,8 +290,13 @@ void addRacks(Hall& hall, Dice& dice) {
             const float x = perSide == 1 ? inner : inner + (outer - inner) * float(i) / float(perSide - 1);
             addRackRow(hall, s * x, z0, z1, dice);
         }
-    for (int i = 0; i < 4; ++i)   // what was put down near the gate
-        addGoods(hall, Frame{}.at({(i % 2 ? 1.0f : -1.0f) * (hall.halfWidth * 0.5f + dice.range(-0.5f, 0.5f)), 0.005f, hall.halfLength - 1.4f - 1.4f * float(i / 2)}).turned(dice.range(-0.2f, 0.2f)), 1.3f, dice);
+    for (int i = 0; i < 4; ++i)  // what was put down near the gate
+        addGoods(hall,
+                 Frame{}
+                     .at({(i % 2 ? 1.0f : -1.0f) * (hall.halfWidth * 0.5f + dice.range(-0.5f, 0.5f)), 0.005f,
+                          hall.halfLength - 1.4f - 1.4f * float(i / 2)})
+                     .turned(dice.range(-0.2f, 0.2f)),
+                 1.3f, dice);
 }
 
 }  // namespace
@@ -276,7 +305,15 @@ Result<Model> makeHall(const HallShape& shape) {
     SHOAL_TRY(validate(shape));
     ModelBuilder builder("hall");
     Dice dice(shape.seed * 47 + 3);
-    Hall hall{shape, builder, {}, -1, -1, shape.width / 2, shape.length / 2, shape.length / float(shape.bays), shape.height + kRoofPitch * shape.width / 2};
+    Hall hall{shape,
+              builder,
+              {},
+              -1,
+              -1,
+              shape.width / 2,
+              shape.length / 2,
+              shape.length / float(shape.bays),
+              shape.height + kRoofPitch * shape.width / 2};
     hall.palette.concrete = hall.concreteFloor = builder.addMaterial("concrete", {1, 1, 1}, makeConcrete(shape.seed));
     hall.palette.steel = builder.addMaterial("painted steel", {1, 1, 1}, 0.42f);
     hall.palette.paint = builder.addMaterial("matt", {1, 1, 1}, 0.8f);

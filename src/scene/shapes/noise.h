@@ -24,7 +24,7 @@ inline float smoothstep(float from, float to, float x) {
     return t * t * (3 - 2 * t);
 }
 inline int wrapped(int i, int period) {
-    if (i >= 0 && i < period) return i;   // nearly always; division is what noise would otherwise spend its time on
+    if (i >= 0 && i < period) return i;  // nearly always; division is what noise would otherwise spend its time on
     const int r = i % period;
     return r < 0 ? r + period : r;
 }
@@ -81,7 +81,8 @@ inline float noise3(Vec3 p, std::uint32_t seed) {
 
 inline float fractal3(Vec3 p, int octaves, std::uint32_t seed) {
     float sum = 0, strength = 1;
-    for (int i = 0; i < octaves; ++i, p = p * 2.03f, strength *= 0.5f) sum += strength * noise3(p, seed + std::uint32_t(i));
+    for (int i = 0; i < octaves; ++i, p = p * 2.03f, strength *= 0.5f)
+        sum += strength * noise3(p, seed + std::uint32_t(i));
     return sum;
 }
 
@@ -95,9 +96,10 @@ inline Cell cellNoise(float x, float y, std::uint32_t seed, int periodX, int per
     Cell best{1e9f, 0};
     for (int dy = -1; dy <= 1; ++dy)
         for (int dx = -1; dx <= 1; ++dx) {
-            const std::uint32_t h = latticeHash(std::uint32_t(wrapped(cx + dx, periodX)),
-                                                std::uint32_t(wrapped(cy + dy, periodY)), seed);
-            const float px = float(cx + dx) + float(h & 0xffff) / 65536.0f, py = float(cy + dy) + float(h >> 16) / 65536.0f;
+            const std::uint32_t h =
+                latticeHash(std::uint32_t(wrapped(cx + dx, periodX)), std::uint32_t(wrapped(cy + dy, periodY)), seed);
+            const float px = float(cx + dx) + float(h & 0xffff) / 65536.0f,
+                        py = float(cy + dy) + float(h >> 16) / 65536.0f;
             const float d = (px - x) * (px - x) + (py - y) * (py - y);
             if (d < best.distance) best = {d, h};
         }

@@ -11,7 +11,7 @@ Blob makeBoulder(std::uint32_t seed, int level, float moss) {
     Blob blob = makeIcosphere(level);
     Dice dice(seed * 7919u + 17u);
     const Vec3 stretch{dice.range(0.85f, 1.25f), dice.range(0.6f, 0.9f), dice.range(0.75f, 1.1f)};
-    std::vector<Vec4> cuts;   // planes: broken faces make it a stone and not a potato
+    std::vector<Vec4> cuts;  // planes: broken faces make it a stone and not a potato
     for (int i = 0; i < 13; ++i) {
         const Vec3 n = normalize(Vec3{dice.range(-1, 1), dice.range(-0.7f, 1), dice.range(-1, 1)});
         cuts.push_back({n.x, n.y, n.z, dice.range(0.62f, 0.9f)});
@@ -48,13 +48,16 @@ void addCrate(ModelBuilder& builder, const Palette& palette, const Frame& base, 
         for (int i = 0; i < count; ++i) {
             wood.color = tint * woodTint(dice, 0.35f);
             wood.uvOffset = {dice.unit(), dice.unit()};
-            addBox(wood, turned.at({0, step * (float(i) + 0.5f), out + board / 2}), {across / 2 - board * 1.2f, step / 2 - 0.003f, board / 2}, 0.003f);
+            addBox(wood, turned.at({0, step * (float(i) + 0.5f), out + board / 2}),
+                   {across / 2 - board * 1.2f, step / 2 - 0.003f, board / 2}, 0.003f);
         }
         wood.color = tint * woodTint(dice, 0.3f) * 0.92f;
         const float face = out + board * 1.35f;
         for (const float s : {-1.0f, 1.0f}) {
-            addBox(wood, turned.at({s * (across - frameWidth) / 2, size.y / 2, face}), {frameWidth / 2, size.y / 2, board * 0.6f}, 0.004f);
-            addBox(wood, turned.at({0, s > 0 ? size.y - frameWidth / 2 : frameWidth / 2, face}), {across / 2 - frameWidth, frameWidth / 2, board * 0.5f}, 0.004f);
+            addBox(wood, turned.at({s * (across - frameWidth) / 2, size.y / 2, face}),
+                   {frameWidth / 2, size.y / 2, board * 0.6f}, 0.004f);
+            addBox(wood, turned.at({0, s > 0 ? size.y - frameWidth / 2 : frameWidth / 2, face}),
+                   {across / 2 - frameWidth, frameWidth / 2, board * 0.5f}, 0.004f);
         }
     }
     const int lid = std::max(2, int(size.z / 0.17f));
@@ -62,7 +65,8 @@ void addCrate(ModelBuilder& builder, const Palette& palette, const Frame& base, 
         const float step = size.z / float(lid);
         wood.color = tint * woodTint(dice, 0.4f);
         wood.uvOffset = {dice.unit(), dice.unit()};
-        addBox(wood, base.at({0, size.y - board / 2, -size.z / 2 + step * (float(i) + 0.5f)}), {size.x / 2, board / 2, step / 2 - 0.003f}, 0.004f);
+        addBox(wood, base.at({0, size.y - board / 2, -size.z / 2 + step * (float(i) + 0.5f)}),
+               {size.x / 2, board / 2, step / 2 - 0.003f}, 0.004f);
     }
 }
 
@@ -74,13 +78,21 @@ void addBarrel(ModelBuilder& builder, const Palette& palette, const Frame& base,
     wood.uvOffset = {dice.unit(), dice.unit()};
     std::vector<Vec2> body{{0, 0.03f}, {radiusAt(0) - 0.03f, 0.03f}, {radiusAt(0) - 0.025f, 0}, {radiusAt(0), 0}};
     for (int i = 1; i < 10; ++i) body.push_back({radiusAt(height * float(i) / 10), height * float(i) / 10});
-    body.insert(body.end(), {{radiusAt(height), height}, {radiusAt(height) - 0.025f, height}, {radiusAt(height) - 0.03f, height - 0.03f}, {0, height - 0.03f}});
+    body.insert(body.end(), {{radiusAt(height), height},
+                             {radiusAt(height) - 0.025f, height},
+                             {radiusAt(height) - 0.03f, height - 0.03f},
+                             {0, height - 0.03f}});
     addLathe(wood, base, body, 28, true);
     Part& iron = builder.part(palette.darkMetal);
     iron.color = {1, 1, 1};
     for (const float at : {0.08f, 0.27f, 0.73f, 0.92f}) {
         const float y = at * height, half = 0.022f * height, t = 0.006f;
-        addLathe(iron, base, {{radiusAt(y - half), y - half}, {radiusAt(y - half) + t, y - half}, {radiusAt(y + half) + t, y + half}, {radiusAt(y + half), y + half}}, 28);
+        addLathe(iron, base,
+                 {{radiusAt(y - half), y - half},
+                  {radiusAt(y - half) + t, y - half},
+                  {radiusAt(y + half) + t, y + half},
+                  {radiusAt(y + half), y + half}},
+                 28);
     }
 }
 
@@ -89,19 +101,33 @@ void addCardboardBox(ModelBuilder& builder, const Palette& palette, const Frame&
     const float shade = 0.8f + 0.35f * dice.unit();
     paint.color = Vec3{0.50f, 0.345f, 0.20f} * shade;
     addStandingBox(paint, base, size, 0.012f);
-    paint.color = Vec3{0.66f, 0.55f, 0.38f} * shade;   // tape
+    paint.color = Vec3{0.66f, 0.55f, 0.38f} * shade;  // tape
     addStandingBox(paint, base.at({0, size.y - 0.05f, 0}), {0.05f, 0.0515f, size.z + 0.003f}, 0.001f);
-    if (dice.chance(0.7f)) {   // a label
+    if (dice.chance(0.7f)) {  // a label
         paint.color = {0.85f, 0.84f, 0.8f};
-        addBox(paint, base.at({size.x * dice.range(-0.2f, 0.2f), size.y * 0.45f, size.z / 2}), {0.08f, 0.055f, 0.002f}, 0);
+        addBox(paint, base.at({size.x * dice.range(-0.2f, 0.2f), size.y * 0.45f, size.z / 2}), {0.08f, 0.055f, 0.002f},
+               0);
     }
 }
 
 void addBollard(ModelBuilder& builder, const Palette& palette, const Frame& base) {
     Part& iron = builder.part(palette.darkMetal);
     iron.color = {1, 1, 1};
-    addLathe(iron, base, {{0, 0}, {0.24f, 0}, {0.24f, 0.03f}, {0.16f, 0.06f}, {0.125f, 0.12f}, {0.12f, 0.3f}, {0.125f, 0.36f}, {0.17f, 0.41f},
-                          {0.195f, 0.45f}, {0.19f, 0.49f}, {0.14f, 0.53f}, {0.06f, 0.55f}, {0, 0.552f}}, 28);
+    addLathe(iron, base,
+             {{0, 0},
+              {0.24f, 0},
+              {0.24f, 0.03f},
+              {0.16f, 0.06f},
+              {0.125f, 0.12f},
+              {0.12f, 0.3f},
+              {0.125f, 0.36f},
+              {0.17f, 0.41f},
+              {0.195f, 0.45f},
+              {0.19f, 0.49f},
+              {0.14f, 0.53f},
+              {0.06f, 0.55f},
+              {0, 0.552f}},
+             28);
     for (int i = 0; i < 6; ++i) {
         const float a = float(i) * kPi / 3;
         addCylinder(iron, base.at({0.205f * std::cos(a), 0.03f, 0.205f * std::sin(a)}), 0.018f, 0.02f, 0.004f, 6);
@@ -133,16 +159,37 @@ void addBench(ModelBuilder& builder, const Palette& palette, const Frame& base, 
 void addLamp(ModelBuilder& builder, const Palette& palette, const Frame& base, float height) {
     Part& iron = builder.part(palette.darkMetal);
     iron.color = {1, 1, 1};
-    addLathe(iron, base, {{0, 0}, {0.17f, 0}, {0.17f, 0.06f}, {0.12f, 0.10f}, {0.09f, 0.30f}, {0.075f, 0.75f}, {0.055f, 0.8f}, {0.05f, height - 0.6f},
-                          {0.07f, height - 0.56f}, {0.04f, height - 0.5f}, {0.13f, height - 0.42f}, {0, height - 0.42f}}, 20);
-    addLathe(iron, base, {{0, height - 0.06f}, {0.19f, height - 0.06f}, {0.2f, height - 0.04f}, {0.09f, height + 0.06f}, {0.03f, height + 0.1f},
-                          {0.025f, height + 0.15f}, {0, height + 0.16f}}, 20);
+    addLathe(iron, base,
+             {{0, 0},
+              {0.17f, 0},
+              {0.17f, 0.06f},
+              {0.12f, 0.10f},
+              {0.09f, 0.30f},
+              {0.075f, 0.75f},
+              {0.055f, 0.8f},
+              {0.05f, height - 0.6f},
+              {0.07f, height - 0.56f},
+              {0.04f, height - 0.5f},
+              {0.13f, height - 0.42f},
+              {0, height - 0.42f}},
+             20);
+    addLathe(iron, base,
+             {{0, height - 0.06f},
+              {0.19f, height - 0.06f},
+              {0.2f, height - 0.04f},
+              {0.09f, height + 0.06f},
+              {0.03f, height + 0.1f},
+              {0.025f, height + 0.15f},
+              {0, height + 0.16f}},
+             20);
     for (int i = 0; i < 4; ++i) {
         const float a = (float(i) + 0.5f) * kPi / 2;
         const Vec3 d{std::cos(a), 0, std::sin(a)};
-        addBeam(iron, base.point(d * 0.12f + Vec3{0, height - 0.42f, 0}), base.point(d * 0.175f + Vec3{0, height - 0.05f, 0}), 0.014f, 0.014f, 0.002f);
+        addBeam(iron, base.point(d * 0.12f + Vec3{0, height - 0.42f, 0}),
+                base.point(d * 0.175f + Vec3{0, height - 0.05f, 0}), 0.014f, 0.014f, 0.002f);
     }
-    addLathe(builder.part(palette.lamp), base, {{0, height - 0.415f}, {0.1f, height - 0.415f}, {0.15f, height - 0.065f}, {0, height - 0.065f}}, 16);
+    addLathe(builder.part(palette.lamp), base,
+             {{0, height - 0.415f}, {0.1f, height - 0.415f}, {0.15f, height - 0.065f}, {0, height - 0.065f}}, 16);
 }
 
 void addFoliage(Part& leaves, Vec3 center, Vec3 half, int count, float leafSize, Dice& dice) {
@@ -156,12 +203,15 @@ void addFoliage(Part& leaves, Vec3 center, Vec3 half, int count, float leafSize,
         Vec3 t = cross(n, tilt);
         t = length(t) > 1e-3f ? normalize(t) : Vec3{1, 0, 0};
         const Vec3 b = cross(n, t);
-        const float size = leafSize * dice.range(0.6f, 1.15f), shade = (0.45f + 0.55f * depth * depth) * dice.range(0.75f, 1.2f);
+        const float size = leafSize * dice.range(0.6f, 1.15f),
+                    shade = (0.45f + 0.55f * depth * depth) * dice.range(0.75f, 1.2f);
         leaves.color = lerp(Vec3{0.9f, 1, 0.8f}, Vec3{1.35f, 1.12f, 0.7f}, dice.unit() * 0.6f) * shade;
         // Lit as part of the crown, not each for itself: that is what makes a crown of loose leaves look round.
         const Vec3 shading = normalize(out * 1.6f + n);
-        const std::uint32_t v[4] = {leaves.add({at - b * size, shading, t, {0.5f, 1}}), leaves.add({at + t * (size * 0.45f), shading, t, {1, 0.5f}}),
-                                    leaves.add({at + b * size, shading, t, {0.5f, 0}}), leaves.add({at - t * (size * 0.45f), shading, t, {0, 0.5f}})};
+        const std::uint32_t v[4] = {leaves.add({at - b * size, shading, t, {0.5f, 1}}),
+                                    leaves.add({at + t * (size * 0.45f), shading, t, {1, 0.5f}}),
+                                    leaves.add({at + b * size, shading, t, {0.5f, 0}}),
+                                    leaves.add({at - t * (size * 0.45f), shading, t, {0, 0.5f}})};
         leaves.quad(v[0], v[1], v[2], v[3], shading);
     }
 }
@@ -170,13 +220,22 @@ void addTree(ModelBuilder& builder, const Palette& palette, const Frame& base, f
     Part& bark = builder.part(palette.bark);
     bark.color = {1, 1, 1};
     const float r = 0.028f * height, fork = 0.42f * height;
-    addLathe(bark, base, {{0, -0.05f}, {r * 1.7f, -0.05f}, {r * 1.15f, 0.1f * height}, {r, 0.25f * height}, {r * 0.85f, fork}, {0.0f, fork + r}}, 12, true);
+    addLathe(bark, base,
+             {{0, -0.05f},
+              {r * 1.7f, -0.05f},
+              {r * 1.15f, 0.1f * height},
+              {r, 0.25f * height},
+              {r * 0.85f, fork},
+              {0.0f, fork + r}},
+             12, true);
     Part& leaves = builder.part(palette.leaf);
     const int limbs = 6;
     for (int i = 0; i <= limbs; ++i) {
-        const float a = (float(i) + dice.range(-0.3f, 0.3f)) * 2 * kPi / limbs, reach = i == limbs ? 0 : height * dice.range(0.15f, 0.23f);
+        const float a = (float(i) + dice.range(-0.3f, 0.3f)) * 2 * kPi / limbs,
+                    reach = i == limbs ? 0 : height * dice.range(0.15f, 0.23f);
         const Vec3 from = base.point({0, fork - 0.02f * height * float(i % 3), 0});
-        const Vec3 to = base.point({reach * std::cos(a), height * (i == limbs ? 0.78f : dice.range(0.58f, 0.74f)), reach * std::sin(a)});
+        const Vec3 to = base.point(
+            {reach * std::cos(a), height * (i == limbs ? 0.78f : dice.range(0.58f, 0.74f)), reach * std::sin(a)});
         addBeam(bark, from, to, r * 0.8f, r * 0.8f, r * 0.3f);
         const float size = height * dice.range(0.15f, 0.2f);
         addFoliage(leaves, to, {size, size * 0.85f, size}, 190, 0.03f * height, dice);

@@ -9,7 +9,7 @@ namespace {
 using namespace shapes;
 
 constexpr float kCoping = 0.3f, kCopingDepth = 0.75f, kOverhang = 0.06f, kStairWidth = 1.1f;
-constexpr float kStairsStart = 0.12f;   // of the length, from the middle
+constexpr float kStairsStart = 0.12f;  // of the length, from the middle
 
 // Stones darken and turn green towards the water, and are dark below it.
 Vec3 stoneTint(float y, Dice& dice) {
@@ -21,7 +21,8 @@ Vec3 stoneTint(float y, Dice& dice) {
 void addWall(ModelBuilder& builder, const QuayShape& shape, int stone, int mortar, Dice& dice) {
     const float top = shape.height - kCoping, bottom = -shape.waterDepth;
     builder.part(mortar).color = {0.45f, 0.45f, 0.42f};
-    addBox(builder.part(mortar), Frame{}.at({0, (top + bottom) / 2, -0.3f}), {shape.length / 2 - 0.02f, (top - bottom) / 2, 0.27f}, 0);
+    addBox(builder.part(mortar), Frame{}.at({0, (top + bottom) / 2, -0.3f}),
+           {shape.length / 2 - 0.02f, (top - bottom) / 2, 0.27f}, 0);
     const int courses = std::max(1, int(std::round((top - bottom) / shape.blockHeight)));
     const float height = (top - bottom) / float(courses);
     Part& part = builder.part(stone);
@@ -38,12 +39,13 @@ void addWall(ModelBuilder& builder, const QuayShape& shape, int stone, int morta
             x += width;
         }
     }
-    for (float x = -shape.length / 2; x < shape.length / 2 - 0.01f;) {   // coping
+    for (float x = -shape.length / 2; x < shape.length / 2 - 0.01f;) {  // coping
         float width = dice.range(1.0f, 1.6f);
         if (x + width > shape.length / 2 - 0.5f) width = shape.length / 2 - x;
         part.color = Vec3{0.95f, 0.92f, 0.87f} * dice.range(0.85f, 1.08f);
         part.uvOffset = {dice.unit(), dice.unit()};
-        addBox(part, Frame{}.at({x + width / 2, shape.height - kCoping / 2, kOverhang - kCopingDepth / 2}), {width / 2 - 0.004f, kCoping / 2, kCopingDepth / 2}, 0.03f);
+        addBox(part, Frame{}.at({x + width / 2, shape.height - kCoping / 2, kOverhang - kCopingDepth / 2}),
+               {width / 2 - 0.004f, kCoping / 2, kCopingDepth / 2}, 0.03f);
         x += width;
     }
 }
@@ -53,7 +55,8 @@ void addPavement(ModelBuilder& builder, const QuayShape& shape, int stone, int m
     const float from = kOverhang - kCopingDepth, depth = shape.width + from;
     if (depth <= 0.1f) return;
     builder.part(mortar).color = {0.5f, 0.48f, 0.44f};
-    addBox(builder.part(mortar), Frame{}.at({0, shape.height - 0.17f, from - depth / 2}), {shape.length / 2, 0.155f, depth / 2}, 0);
+    addBox(builder.part(mortar), Frame{}.at({0, shape.height - 0.17f, from - depth / 2}),
+           {shape.length / 2, 0.155f, depth / 2}, 0);
     const int rows = std::max(1, int(depth / 0.55f));
     const float rowDepth = depth / float(rows);
     Part& part = builder.part(stone);
@@ -61,9 +64,13 @@ void addPavement(ModelBuilder& builder, const QuayShape& shape, int stone, int m
         for (float x = -shape.length / 2; x < shape.length / 2 - 0.01f;) {
             float width = rowDepth * dice.range(0.9f, 1.9f);
             if (x + width > shape.length / 2 - 0.4f * rowDepth) width = shape.length / 2 - x;
-            part.color = lerp(Vec3{0.80f, 0.77f, 0.72f}, Vec3{0.66f, 0.66f, 0.66f}, dice.unit()) * dice.range(0.78f, 1.12f);
+            part.color =
+                lerp(Vec3{0.80f, 0.77f, 0.72f}, Vec3{0.66f, 0.66f, 0.66f}, dice.unit()) * dice.range(0.78f, 1.12f);
             part.uvOffset = {dice.unit(), dice.unit()};
-            addSlab(part, Frame{}.at({x + width / 2, shape.height - dice.range(0.002f, 0.01f), from - rowDepth * (float(row) + 0.5f)}), width / 2 - 0.004f, rowDepth / 2 - 0.004f, 0.016f);
+            addSlab(part,
+                    Frame{}.at({x + width / 2, shape.height - dice.range(0.002f, 0.01f),
+                                from - rowDepth * (float(row) + 0.5f)}),
+                    width / 2 - 0.004f, rowDepth / 2 - 0.004f, 0.016f);
             x += width;
         }
 }
@@ -73,13 +80,15 @@ void addStairs(Part& stone, const QuayShape& shape, Dice& dice) {
     const int steps = std::max(1, int((shape.height + std::min(0.5f, shape.waterDepth)) / rise));
     const float start = shape.length * kStairsStart;
     for (int i = 0; i < steps; ++i) {
-        const float top = shape.height - rise * float(i + 1), bottom = std::max(-shape.waterDepth, -2.0f - rise * float(i));
+        const float top = shape.height - rise * float(i + 1),
+                    bottom = std::max(-shape.waterDepth, -2.0f - rise * float(i));
         if (top - bottom < 0.05f) break;
         const float x = start + run * (float(i) + 0.5f);
         if (x + run > shape.length / 2) break;
         stone.color = stoneTint(top + 0.1f, dice) * 0.96f;
         stone.uvOffset = {dice.unit(), dice.unit()};
-        addBox(stone, Frame{}.at({x, (top + bottom) / 2, kStairWidth / 2 + 0.02f}), {run / 2 - 0.003f, (top - bottom) / 2, kStairWidth / 2}, 0.02f);
+        addBox(stone, Frame{}.at({x, (top + bottom) / 2, kStairWidth / 2 + 0.02f}),
+               {run / 2 - 0.003f, (top - bottom) / 2, kStairWidth / 2}, 0.02f);
     }
 }
 
@@ -88,7 +97,8 @@ void addFittings(ModelBuilder& builder, const Palette& palette, const QuayShape&
         const float x = shape.length * ((float(i) + 0.5f) / float(shape.bollards) - 0.5f);
         addBollard(builder, palette, Frame{}.at({x, shape.height, -0.32f}));
         // A rubber fender beside each, but not over the steps.
-        if (shape.stairs && x + 1.1f > shape.length * kStairsStart && x + 0.3f < shape.length * kStairsStart + 3) continue;
+        if (shape.stairs && x + 1.1f > shape.length * kStairsStart && x + 0.3f < shape.length * kStairsStart + 3)
+            continue;
         Part& rubber = builder.part(palette.paint);
         rubber.color = {0.018f, 0.018f, 0.019f};
         const Frame hang = Frame{}.at({x + 0.7f, shape.height - 0.75f, 0.13f}).tipped({1, 0, 0}, kPi / 2);
@@ -100,20 +110,23 @@ void addFittings(ModelBuilder& builder, const Palette& palette, const QuayShape&
         addLathe(rubber, hang, tyre, 28);
         Part& iron = builder.part(palette.darkMetal);
         iron.color = {1, 1, 1};
-        for (const float s : {-0.13f, 0.13f}) addBeam(iron, {x + 0.7f + s, shape.height - 0.55f, 0.12f}, {x + 0.7f + s * 0.6f, shape.height - 0.05f, 0.07f}, 0.02f, 0.02f, 0.004f, {0, 0, 1});
+        for (const float s : {-0.13f, 0.13f})
+            addBeam(iron, {x + 0.7f + s, shape.height - 0.55f, 0.12f},
+                    {x + 0.7f + s * 0.6f, shape.height - 0.05f, 0.07f}, 0.02f, 0.02f, 0.004f, {0, 0, 1});
     }
 }
 
 void addProps(ModelBuilder& builder, const Palette& palette, const QuayShape& shape, Dice& dice) {
     const float deep = std::max(0.2f, shape.width - 2.6f);
     int left = shape.props;
-    while (left > 0) {   // in groups, as goods stand on a quay
+    while (left > 0) {  // in groups, as goods stand on a quay
         const int group = std::min(left, 2 + dice.below(3));
         left -= group;
         const Vec3 middle{dice.range(-0.44f, 0.44f) * shape.length, shape.height, -1.6f - dice.unit() * deep};
         for (int i = 0; i < group; ++i) {
             const float a = 2 * kPi * float(i) / float(group) + dice.range(-0.3f, 0.3f), r = group == 1 ? 0 : 0.68f;
-            const Frame base = Frame{}.at(middle + Vec3{r * std::cos(a), 0, r * std::sin(a)}).turned(dice.range(-0.5f, 0.5f));
+            const Frame base =
+                Frame{}.at(middle + Vec3{r * std::cos(a), 0, r * std::sin(a)}).turned(dice.range(-0.5f, 0.5f));
             if (dice.chance(0.45f)) {
                 addBarrel(builder, palette, base, dice.range(0.8f, 0.95f), dice);
             } else {

@@ -7,7 +7,8 @@
 namespace shoal::scene::shapes {
 namespace {
 
-// Planar texture coordinates for a face with a normal and a tangent: u along the tangent, v against cross(normal, tangent).
+// Planar texture coordinates for a face with a normal and a tangent: u along the tangent, v against cross(normal,
+// tangent).
 Vec2 planarUv(const Part& part, Vec3 p, Vec3 n, Vec3 t) {
     return {dot(p, t) * part.uvPerMetre + part.uvOffset.x, -dot(p, cross(n, t)) * part.uvPerMetre + part.uvOffset.y};
 }
@@ -29,14 +30,16 @@ struct BoxMaker {
     float bevel;
 
     std::uint32_t corner(Vec3 local, Vec3 n, Vec3 t, Vec3 uvNormal, Vec3 uvTangent) const {
-        return part.add({frame.point(local), frame.direction(n), frame.direction(t), planarUv(part, local, uvNormal, uvTangent)});
+        return part.add(
+            {frame.point(local), frame.direction(n), frame.direction(t), planarUv(part, local, uvNormal, uvTangent)});
     }
 
     Face face(int axis, float sign) const {
         const int b = (axis + 1) % 3, c = (axis + 2) % 3;
         Face f{axis, sign, axisOf(axis, sign), axisOf(component(half, b) >= component(half, c) ? b : c, 1), {}};
         for (std::size_t i = 0; i < 4; ++i) {
-            const Vec3 p = f.normal * component(half, axis) + axisOf(b, (i & 1 ? 1.0f : -1.0f) * (component(half, b) - bevel)) +
+            const Vec3 p = f.normal * component(half, axis) +
+                           axisOf(b, (i & 1 ? 1.0f : -1.0f) * (component(half, b) - bevel)) +
                            axisOf(c, (i & 2 ? 1.0f : -1.0f) * (component(half, c) - bevel));
             f.corner[i] = corner(p, f.normal, f.tangent, f.normal, f.tangent);
         }
@@ -48,7 +51,7 @@ struct BoxMaker {
     void edge(const Face& a, const Face& b) const {
         const int along = 3 - a.axis - b.axis;
         Vec3 tangent = a.tangent;
-        if (std::abs(component(tangent, b.axis)) > 0.5f) tangent = a.normal * -b.sign;   // bent round the edge
+        if (std::abs(component(tangent, b.axis)) > 0.5f) tangent = a.normal * -b.sign;  // bent round the edge
         std::uint32_t near[2], far[2];
         for (int i = 0; i < 2; ++i) {
             const float s = i ? 1.0f : -1.0f;
@@ -76,12 +79,13 @@ void addBox(Part& part, const Frame& center, Vec3 half, float bevel) {
     for (int axis = 0; axis < 3; ++axis)
         for (const Face& a : faces[axis])
             for (const Face& b : faces[(axis + 1) % 3]) maker.edge(a, b);
-    for (std::size_t i = 0; i < 8; ++i) {   // corners
+    for (std::size_t i = 0; i < 8; ++i) {  // corners
         const bool plus[3] = {(i & 1) != 0, (i & 2) != 0, (i & 4) != 0};
         std::uint32_t v[3];
         Vec3 out;
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            v[axis] = faces[axis][plus[axis]].corner[std::size_t(plus[(axis + 1) % 3]) + 2 * std::size_t(plus[(axis + 2) % 3])];
+            v[axis] = faces[axis][plus[axis]]
+                          .corner[std::size_t(plus[(axis + 1) % 3]) + 2 * std::size_t(plus[(axis + 2) % 3])];
             out += axisOf(int(axis), plus[axis] ? 1.0f : -1.0f);
         }
         part.triangle(v[0], v[1], v[2], center.direction(out));
@@ -110,7 +114,8 @@ void addSlab(Part& part, const Frame& top, float halfX, float halfZ, float bevel
         const float sx = signs[i][0], sz = signs[i][1];
         const Vec3 p{sx * (halfX - bevel), 0, sz * (halfZ - bevel)}, q{sx * halfX, -bevel, sz * halfZ};
         inner[i] = part.add({top.point(p), top.y, top.direction(t), planarUv(part, p, up, t)});
-        outer[i] = part.add({top.point(q), top.direction(normalize(Vec3{sx, 0.8f, sz})), top.direction(t), planarUv(part, q, up, t)});
+        outer[i] = part.add(
+            {top.point(q), top.direction(normalize(Vec3{sx, 0.8f, sz})), top.direction(t), planarUv(part, q, up, t)});
     }
     part.quad(inner[0], inner[1], inner[2], inner[3], top.y);
     for (int i = 0; i < 4; ++i) part.quad(inner[i], inner[(i + 1) % 4], outer[(i + 1) % 4], outer[i], top.y);
@@ -120,12 +125,12 @@ namespace {
 
 struct ProfilePoint {
     Vec2 at;
-    Vec2 normal;     // (radial, up)
-    float arc;       // length along the profile
-    bool flat;       // part of a level ring: planar texture
+    Vec2 normal;  // (radial, up)
+    float arc;    // length along the profile
+    bool flat;    // part of a level ring: planar texture
 };
 
-constexpr float kSharpCosine = 0.766f;   // of 40 degrees
+constexpr float kSharpCosine = 0.766f;  // of 40 degrees
 
 // Segments of the profile as pairs of points, with normals shared where the profile is smooth.
 std::vector<std::array<ProfilePoint, 2>> profileSegments(const std::vector<Vec2>& profile) {
@@ -157,13 +162,14 @@ std::vector<std::array<ProfilePoint, 2>> profileSegments(const std::vector<Vec2>
 void addLathe(Part& part, const Frame& frame, const std::vector<Vec2>& profile, int segments, bool grainUp) {
     float widest = 0;
     for (const Vec2 p : profile) widest = std::max(widest, p.x);
-    const float turns = std::max(1.0f, std::round(2 * kPi * widest * part.uvPerMetre));   // whole repetitions: no seam
+    const float turns = std::max(1.0f, std::round(2 * kPi * widest * part.uvPerMetre));  // whole repetitions: no seam
     for (const std::array<ProfilePoint, 2>& ends : profileSegments(profile)) {
         std::vector<std::uint32_t> rings[2];
         for (int end = 0; end < 2; ++end)
             for (int i = 0; i <= segments; ++i) {
                 const ProfilePoint& at = ends[std::size_t(end)];
-                const float turn = float(i % segments) / float(segments), c = std::cos(2 * kPi * turn), s = -std::sin(2 * kPi * turn);
+                const float turn = float(i % segments) / float(segments), c = std::cos(2 * kPi * turn),
+                            s = -std::sin(2 * kPi * turn);
                 const Vec3 p{at.at.x * c, at.at.y, at.at.x * s}, n{at.normal.x * c, at.normal.y, at.normal.x * s};
                 const Vec3 upwards{-at.normal.y * c, at.normal.x, -at.normal.y * s}, round{s, 0, -c};
                 const Vec3 t = at.flat ? Vec3{1, 0, 0} : grainUp ? upwards : round;
@@ -173,7 +179,8 @@ void addLathe(Part& part, const Frame& frame, const std::vector<Vec2>& profile, 
                 rings[end].push_back(part.add({frame.point(p), frame.direction(n), frame.direction(t), uv}));
             }
         for (std::size_t i = 0; i < std::size_t(segments); ++i) {
-            const float turn = (float(i) + 0.5f) / float(segments), c = std::cos(2 * kPi * turn), s = -std::sin(2 * kPi * turn);
+            const float turn = (float(i) + 0.5f) / float(segments), c = std::cos(2 * kPi * turn),
+                        s = -std::sin(2 * kPi * turn);
             const Vec2 n = ends[0].normal + ends[1].normal;
             const Vec3 facing = frame.direction({n.x * c, n.y, n.x * s});
             if (ends[1].at.x > 0) part.triangle(rings[0][i], rings[1][i], rings[1][i + 1], facing);
@@ -186,8 +193,9 @@ void addCylinder(Part& part, const Frame& base, float radius, float height, floa
     bevel = std::clamp(bevel, 0.0f, 0.45f * std::min(radius, height));
     std::vector<Vec2> profile{{0, 0}, {radius - bevel, 0}};
     if (bevel > 0) {
-        const float k = 0.2929f * bevel;   // 1 - cos 45 degrees: the rounding's middle
-        profile.insert(profile.end(), {{radius - k, k}, {radius, bevel}, {radius, height - bevel}, {radius - k, height - k}});
+        const float k = 0.2929f * bevel;  // 1 - cos 45 degrees: the rounding's middle
+        profile.insert(profile.end(),
+                       {{radius - k, k}, {radius, bevel}, {radius, height - bevel}, {radius - k, height - k}});
     } else {
         profile.push_back({radius, height});
     }
@@ -219,11 +227,21 @@ void addSheet(Part& part, const Frame& frame, float halfX, float halfZ) {
 Blob makeIcosphere(int level) {
     const float g = (1 + std::sqrt(5.0f)) / 2;
     Blob out;
-    for (const Vec3 p : {Vec3{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0}, {0, -1, g}, {0, 1, g}, {0, -1, -g}, {0, 1, -g},
-                         {g, 0, -1}, {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}})
+    for (const Vec3 p : {Vec3{-1, g, 0},
+                         {1, g, 0},
+                         {-1, -g, 0},
+                         {1, -g, 0},
+                         {0, -1, g},
+                         {0, 1, g},
+                         {0, -1, -g},
+                         {0, 1, -g},
+                         {g, 0, -1},
+                         {g, 0, 1},
+                         {-g, 0, -1},
+                         {-g, 0, 1}})
         out.positions.push_back(normalize(p));
-    out.indices = {0, 11, 5, 0, 5, 1, 0, 1, 7, 0, 7, 10, 0, 10, 11, 1, 5, 9, 5, 11, 4, 11, 10, 2, 10, 7, 6, 7, 1, 8,
-                   3, 9, 4, 3, 4, 2, 3, 2, 6, 3, 6, 8, 3, 8, 9, 4, 9, 5, 2, 4, 11, 6, 2, 10, 8, 6, 7, 9, 8, 1};
+    out.indices = {0, 11, 5, 0, 5, 1, 0, 1, 7, 0, 7, 10, 0, 10, 11, 1, 5, 9, 5, 11, 4,  11, 10, 2,  10, 7, 6, 7, 1, 8,
+                   3, 9,  4, 3, 4, 2, 3, 2, 6, 3, 6, 8,  3, 8,  9,  4, 9, 5, 2, 4,  11, 6,  2,  10, 8,  6, 7, 9, 8, 1};
     for (int i = 0; i < level; ++i) {
         std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
         const auto middle = [&](std::uint32_t a, std::uint32_t b) {

@@ -11,8 +11,8 @@ namespace shoal::scene::shapes {
 namespace {
 
 struct Texel {
-    Vec3 albedo;          // linear
-    float height = 0;     // metres
+    Vec3 albedo;       // linear
+    float height = 0;  // metres
     float roughness = 1;
 };
 
@@ -38,7 +38,8 @@ Surface makeSurface(int size, float metres, const TexelAt& texelAt) {
             const Texel t = texelAt((float(x) + 0.5f) / float(size), (float(y) + 0.5f) / float(size));
             heights[y * side + x] = t.height;
             std::uint8_t* color = &out.color.pixels[4 * (y * side + x)];
-            color[0] = srgbByte(t.albedo.x), color[1] = srgbByte(t.albedo.y), color[2] = srgbByte(t.albedo.z), color[3] = 255;
+            color[0] = srgbByte(t.albedo.x), color[1] = srgbByte(t.albedo.y), color[2] = srgbByte(t.albedo.z),
+            color[3] = 255;
             std::uint8_t* roughness = &out.roughness.pixels[4 * (y * side + x)];
             roughness[0] = 255, roughness[1] = byteOf(t.roughness), roughness[2] = 0, roughness[3] = 255;
         }
@@ -64,7 +65,8 @@ Surface makeWood(std::uint32_t seed) {
     return makeSurface(512, 1.2f, [&](float u, float v) {
         const float sway = 0.6f * noise(u * 3, v * 4, seed, 3, 4);
         // Growth rings cut lengthwise: bands across v that wander along u.
-        const float rings = 0.5f + 0.5f * std::sin(2 * kPi * (v * 14 + sway + 0.35f * noise(u * 2, v * 14, seed + 1, 2, 14)));
+        const float rings =
+            0.5f + 0.5f * std::sin(2 * kPi * (v * 14 + sway + 0.35f * noise(u * 2, v * 14, seed + 1, 2, 14)));
         const float fibre = fractal(u * 6, v * 96, 2, seed + 2, 6, 96);
         const float crack = smoothstep(0.52f, 0.75f, noise(u * 5, v * 70, seed + 5, 5, 70));
         const float stain = fractal(u * 3, v * 5, 3, seed + 7, 3, 5);
@@ -84,7 +86,8 @@ Surface makeStone(std::uint32_t seed) {
         const float grain = noise(u * 128, v * 128, seed + 9, 128, 128);
         const float chisel = fractal(u * 12, v * 12, 3, seed + 11, 12, 12);
         const Cell pit = cellNoise(u * 24, v * 24, seed + 17, 24, 24);
-        const float size = 0.04f + 0.16f * unitOf(pit.id * 747796405u) * unitOf(pit.id * 747796405u);   // few large, many small
+        const float size =
+            0.04f + 0.16f * unitOf(pit.id * 747796405u) * unitOf(pit.id * 747796405u);  // few large, many small
         const float hole = (pit.id & 7) < 3 ? 1 - smoothstep(0.3f * size, size, pit.distance + 0.05f * chisel) : 0;
         const float vein = 1 - smoothstep(0.0f, 0.05f, std::abs(fractal(u * 2, v * 2, 3, seed + 21, 2, 2) - 0.05f));
         const float value = 0.40f + 0.12f * blotch + 0.05f * grain + 0.06f * chisel - 0.12f * hole - 0.05f * vein;
@@ -104,10 +107,12 @@ Surface makeRock(std::uint32_t seed) {
         const float crack = 1 - smoothstep(0.0f, 0.10f, fissure);
         const float grain = noise(u * 140, v * 140, seed + 9, 140, 140);
         const Cell spot = cellNoise(u * 16, v * 16, seed + 17, 16, 16);
-        const float lichen = (spot.id & 7) < 2 ? (1 - smoothstep(0.15f, 0.3f, spot.distance + 0.12f * grain + 0.1f * blotch)) : 0;
+        const float lichen =
+            (spot.id & 7) < 2 ? (1 - smoothstep(0.15f, 0.3f, spot.distance + 0.12f * grain + 0.1f * blotch)) : 0;
         const float value = 0.36f + 0.13f * blotch + 0.05f * grain + 0.14f * std::min(fissure, 0.6f) - 0.05f * crack;
         Texel t;
-        t.albedo = lerp(Vec3{1.0f, 0.96f, 0.90f} * std::clamp(value, 0.04f, 0.9f), Vec3{0.40f, 0.40f, 0.28f}, 0.55f * lichen);
+        t.albedo =
+            lerp(Vec3{1.0f, 0.96f, 0.90f} * std::clamp(value, 0.04f, 0.9f), Vec3{0.40f, 0.40f, 0.28f}, 0.55f * lichen);
         t.height = 0.03f * std::min(fissure, 0.5f) + 0.014f * blotch + 0.0014f * grain;
         t.roughness = 0.9f;
         return t;
@@ -137,7 +142,8 @@ Surface makeSand(std::uint32_t seed) {
         const float bend = 0.35f * noise(u * 3, v * 3, seed, 3, 3) + 0.12f * noise(u * 9, v * 9, seed + 1, 9, 9);
         const float phase = v * 14 + bend * 3;
         const float wave = std::sin(2 * kPi * phase);
-        const float ripple = (0.5f + 0.5f * wave) * (0.5f + 0.5f * wave) * (0.7f + 0.5f * noise(u * 5, v * 5, seed + 3, 5, 5));
+        const float ripple =
+            (0.5f + 0.5f * wave) * (0.5f + 0.5f * wave) * (0.7f + 0.5f * noise(u * 5, v * 5, seed + 3, 5, 5));
         const float grain = noise(u * 200, v * 200, seed + 5, 200, 200);
         const float patch = fractal(u * 4, v * 4, 4, seed + 8, 4, 4);
         const Cell pebble = cellNoise(u * 40, v * 40, seed + 13, 40, 40);
@@ -168,7 +174,7 @@ Surface makeGrit(std::uint32_t seed) {
 
 Surface makeTiles(std::uint32_t seed, float tileSize, int count) {
     const int size = count >= 6 ? 512 : 256;
-    const float joint = std::clamp(0.004f / tileSize, 0.02f, 0.06f);   // half its width, in tiles
+    const float joint = std::clamp(0.004f / tileSize, 0.02f, 0.06f);  // half its width, in tiles
     return makeSurface(size, tileSize * float(count), [&](float u, float v) {
         const float x = u * float(count), y = v * float(count);
         const float fx = x - std::floor(x), fy = y - std::floor(y);
@@ -178,9 +184,11 @@ Surface makeTiles(std::uint32_t seed, float tileSize, int count) {
         const float glaze = fractal(u * 8, v * 8, 3, seed + 3, 8, 8), dirt = fractal(u * 5, v * 5, 4, seed + 5, 5, 5);
         const float shade = 0.86f + 0.12f * (unitOf(id) - 0.5f) + 0.03f * glaze;
         const float hue = unitOf(latticeHash(id, 1, seed)) - 0.5f;
-        const Vec3 tile = Vec3{1 + 0.05f * hue, 1, 1 - 0.05f * hue} * shade, grout = Vec3{0.42f, 0.42f, 0.40f} * (1 + 0.2f * dirt);
+        const Vec3 tile = Vec3{1 + 0.05f * hue, 1, 1 - 0.05f * hue} * shade,
+                   grout = Vec3{0.42f, 0.42f, 0.40f} * (1 + 0.2f * dirt);
         // Each tile lies a little askew, which breaks up reflections as on a real wall.
-        const float tiltX = (unitOf(latticeHash(id, 2, seed)) - 0.5f) * 0.02f, tiltY = (unitOf(latticeHash(id, 3, seed)) - 0.5f) * 0.02f;
+        const float tiltX = (unitOf(latticeHash(id, 2, seed)) - 0.5f) * 0.02f,
+                    tiltY = (unitOf(latticeHash(id, 3, seed)) - 0.5f) * 0.02f;
         Texel t;
         t.albedo = lerp(grout, tile, body);
         t.height = tileSize * ((fx - 0.5f) * tiltX + (fy - 0.5f) * tiltY) + 0.0025f * body + 0.0003f * glaze;

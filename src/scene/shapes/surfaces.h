@@ -9,18 +9,18 @@
 namespace shoal::scene::shapes {
 
 struct Surface {
-    ByteImage color;       // sRGB
-    ByteImage normal;      // tangent space, +y up the picture (glTF)
-    ByteImage roughness;   // glTF's metallic-roughness: G roughness, B metallic (0)
-    float metres = 1;      // what one repetition covers
+    ByteImage color;      // sRGB
+    ByteImage normal;     // tangent space, +y up the picture (glTF)
+    ByteImage roughness;  // glTF's metallic-roughness: G roughness, B metallic (0)
+    float metres = 1;     // what one repetition covers
 };
 
-Surface makeWood(std::uint32_t seed);       // grain along u
-Surface makeStone(std::uint32_t seed);      // hewn, pitted, light; the tint comes from vertex colours
-Surface makeRock(std::uint32_t seed);       // grown: cracks and lichen
+Surface makeWood(std::uint32_t seed);   // grain along u
+Surface makeStone(std::uint32_t seed);  // hewn, pitted, light; the tint comes from vertex colours
+Surface makeRock(std::uint32_t seed);   // grown: cracks and lichen
 Surface makeConcrete(std::uint32_t seed);
-Surface makeSand(std::uint32_t seed);       // with ripples
-Surface makeGrit(std::uint32_t seed);       // pebbly ground: grass, soil and rock from afar
+Surface makeSand(std::uint32_t seed);  // with ripples
+Surface makeGrit(std::uint32_t seed);  // pebbly ground: grass, soil and rock from afar
 // Glazed tiles with joints, `count` a side; tileSize in metres.
 Surface makeTiles(std::uint32_t seed, float tileSize, int count);
 

@@ -32,7 +32,8 @@ public:
     }
 
     Vec3 normal(float x, float z, float step) const {
-        return normalize(Vec3{height(x - step, z) - height(x + step, z), 2 * step, height(x, z - step) - height(x, z + step)});
+        return normalize(
+            Vec3{height(x - step, z) - height(x + step, z), 2 * step, height(x, z - step) - height(x, z + step)});
     }
 
 private:
@@ -42,7 +43,8 @@ private:
         const float coast = 0.16f * fractal(x * scale, z * scale, 3, shape_.seed + 55);
         const float from = std::sqrt(x * x + z * z) / (0.5f * shape_.size) + coast;
         const float dome = std::pow(1 - smoothstep(0.0f, 0.95f, from), 1.3f);
-        const float raised = shape_.height * (1.45f * std::max(0.0f, land) * dome - 0.07f) - shape_.seaDepth * smoothstep(0.5f, 1.0f, from);
+        const float raised = shape_.height * (1.45f * std::max(0.0f, land) * dome - 0.07f) -
+                             shape_.seaDepth * smoothstep(0.5f, 1.0f, from);
         const float h = std::min(raised, shape_.height);
         return h * (0.3f + 0.7f * smoothstep(0.0f, 2.2f, std::abs(h)));
     }
@@ -51,13 +53,15 @@ private:
 };
 
 Vec3 groundColor(const TerrainShape& shape, Vec3 p, float steepness) {
-    const float patch = fractal(p.x * 0.13f, p.z * 0.13f, 4, shape.seed + 200), fine = noise(p.x * 1.1f, p.z * 1.1f, shape.seed + 210);
+    const float patch = fractal(p.x * 0.13f, p.z * 0.13f, 4, shape.seed + 200),
+                fine = noise(p.x * 1.1f, p.z * 1.1f, shape.seed + 210);
     const Vec3 sand = Vec3{0.72f, 0.60f, 0.42f} * (1 + 0.06f * fine);
-    const Vec3 grass = lerp(Vec3{0.105f, 0.145f, 0.05f}, Vec3{0.235f, 0.22f, 0.10f}, smoothstep(-0.5f, 0.7f, patch)) * (1 + 0.25f * fine);
+    const Vec3 grass = lerp(Vec3{0.105f, 0.145f, 0.05f}, Vec3{0.235f, 0.22f, 0.10f}, smoothstep(-0.5f, 0.7f, patch)) *
+                       (1 + 0.25f * fine);
     const Vec3 rock = lerp(Vec3{0.40f, 0.37f, 0.33f}, Vec3{0.27f, 0.25f, 0.23f}, smoothstep(-0.5f, 0.5f, fine + patch));
     const float line = shape.island ? shape.grassLine : -1e9f;
     Vec3 color = lerp(sand, grass, smoothstep(line - 0.35f, line + 0.45f, p.y + 0.7f * patch));
-    if (shape.island) color = color * mix(1.0f, 0.62f, (1 - smoothstep(0.02f, 0.32f, p.y)));   // wet by the waves
+    if (shape.island) color = color * mix(1.0f, 0.62f, (1 - smoothstep(0.02f, 0.32f, p.y)));  // wet by the waves
     return lerp(color, rock, smoothstep(0.13f, 0.30f, steepness + 0.09f * fine + 0.06f * patch));
 }
 
@@ -73,7 +77,8 @@ void addGround(ModelBuilder& builder, const TerrainShape& shape, const Ground& g
     Part& part = builder.part(material);
     for (std::size_t row = 0; row < side; ++row)
         for (std::size_t i = 0; i < side; ++i) {
-            const std::size_t left = i > 0 ? i - 1 : 0, right = std::min(i + 1, side - 1), back = row > 0 ? row - 1 : 0, front = std::min(row + 1, side - 1);
+            const std::size_t left = i > 0 ? i - 1 : 0, right = std::min(i + 1, side - 1), back = row > 0 ? row - 1 : 0,
+                              front = std::min(row + 1, side - 1);
             const float dx = (heightAt(right, row) - heightAt(left, row)) / (float(right - left) * cell);
             const float dz = (heightAt(i, front) - heightAt(i, back)) / (float(front - back) * cell);
             const Vec3 p{at(i), heightAt(i, row), at(row)}, n = normalize(Vec3{-dx, 1, -dz});
@@ -84,19 +89,23 @@ void addGround(ModelBuilder& builder, const TerrainShape& shape, const Ground& g
         for (std::uint32_t i = 0; i + 1 < side; ++i) {
             const std::uint32_t a = row * std::uint32_t(side) + i, b = a + std::uint32_t(side);
             // The diagonal that follows the ridge or the valley.
-            if (std::abs(heights[a] - heights[b + 1]) < std::abs(heights[a + 1] - heights[b])) part.quad(a, b, b + 1, a + 1, {0, 1, 0});
-            else part.quad(b, b + 1, a + 1, a, {0, 1, 0});
+            if (std::abs(heights[a] - heights[b + 1]) < std::abs(heights[a + 1] - heights[b]))
+                part.quad(a, b, b + 1, a + 1, {0, 1, 0});
+            else
+                part.quad(b, b + 1, a + 1, a, {0, 1, 0});
         }
 }
 
 Quat uprightTurn(Dice& dice, float tilt) {
-    return axisAngle({0, 1, 0}, dice.range(0, 2 * kPi)) * axisAngle(normalize(Vec3{dice.range(-1, 1), 0.001f, dice.range(-1, 1)}), dice.range(0, tilt));
+    return axisAngle({0, 1, 0}, dice.range(0, 2 * kPi)) *
+           axisAngle(normalize(Vec3{dice.range(-1, 1), 0.001f, dice.range(-1, 1)}), dice.range(0, tilt));
 }
 
 // Nodes of a few prototypes: a prototype's first use carries its geometry.
 class Scatter {
 public:
-    Scatter(ModelBuilder& builder, std::string name, std::size_t& nodeCount) : builder_(builder), name_(std::move(name)), nodeCount_(nodeCount) {}
+    Scatter(ModelBuilder& builder, std::string name, std::size_t& nodeCount)
+        : builder_(builder), name_(std::move(name)), nodeCount_(nodeCount) {}
     template <class Make>
     void place(std::size_t kind, Vec3 at, Quat turned, float scale, const Make& make) {
         if (made_.size() <= kind) made_.resize(kind + 1, ~std::size_t(0));
@@ -119,7 +128,8 @@ private:
 
 constexpr int kBoulderKinds = 6, kBushKinds = 3;
 
-void scatterRocks(ModelBuilder& builder, const TerrainShape& shape, const Ground& ground, int stone, std::size_t& nodeCount) {
+void scatterRocks(ModelBuilder& builder, const TerrainShape& shape, const Ground& ground, int stone,
+                  std::size_t& nodeCount) {
     Dice dice(shape.seed * 31 + 7);
     Scatter scatter(builder, "rock", nodeCount);
     for (int i = 0; i < shape.rocks; ++i) {
@@ -127,12 +137,14 @@ void scatterRocks(ModelBuilder& builder, const TerrainShape& shape, const Ground
         const float radius = shape.size / 120 * 0.25f * std::pow(7.0f, dice.unit() * dice.unit());
         const Quat turn = uprightTurn(dice, 0.4f);
         const std::uint32_t kind = std::uint32_t(i % kBoulderKinds);
-        scatter.place(kind, {x, ground.height(x, z) - 0.1f * radius, z}, turn, radius,
-                      [&] { addBlob(builder.part(stone), {}, makeBoulder(shape.seed * 13 + kind, 3, shape.island ? 0.15f : 0.4f)); });
+        scatter.place(kind, {x, ground.height(x, z) - 0.1f * radius, z}, turn, radius, [&] {
+            addBlob(builder.part(stone), {}, makeBoulder(shape.seed * 13 + kind, 3, shape.island ? 0.15f : 0.4f));
+        });
     }
 }
 
-void scatterBushes(ModelBuilder& builder, const TerrainShape& shape, const Ground& ground, int leaf, std::size_t& nodeCount) {
+void scatterBushes(ModelBuilder& builder, const TerrainShape& shape, const Ground& ground, int leaf,
+                   std::size_t& nodeCount) {
     Dice dice(shape.seed * 37 + 11);
     Scatter scatter(builder, "bush", nodeCount);
     int placed = 0;
@@ -141,13 +153,15 @@ void scatterBushes(ModelBuilder& builder, const TerrainShape& shape, const Groun
         const float h = ground.height(x, z), scale = dice.range(0.45f, 1.3f);
         const Quat turn = uprightTurn(dice, 0.1f);
         const bool grows = !shape.island || h > shape.grassLine + 0.5f;
-        if (!grows || ground.normal(x, z, 0.5f).y < 0.82f || noise(x * 0.09f, z * 0.09f, shape.seed + 300) < -0.1f) continue;
+        if (!grows || ground.normal(x, z, 0.5f).y < 0.82f || noise(x * 0.09f, z * 0.09f, shape.seed + 300) < -0.1f)
+            continue;
         const std::uint32_t kind = std::uint32_t(placed++ % kBushKinds);
         scatter.place(kind, {x, h, z}, turn, scale, [&] {
             Dice shapeDice(shape.seed * 41 + kind);
             Part& leaves = builder.part(leaf);
             for (int clump = 0; clump < 3; ++clump)
-                addFoliage(leaves, {shapeDice.range(-0.35f, 0.35f), 0.35f, shapeDice.range(-0.35f, 0.35f)}, {0.5f, 0.45f, 0.5f}, 110, 0.1f, shapeDice);
+                addFoliage(leaves, {shapeDice.range(-0.35f, 0.35f), 0.35f, shapeDice.range(-0.35f, 0.35f)},
+                           {0.5f, 0.45f, 0.5f}, 110, 0.1f, shapeDice);
         });
     }
 }
@@ -163,7 +177,8 @@ Result<Model> makeTerrain(const TerrainShape& shape) {
     builder.beginNode("ground");
     addGround(builder, shape, ground, grit);
     if (shape.rocks > 0)
-        scatterRocks(builder, shape, ground, builder.addMaterial("rock", {0.75f, 0.72f, 0.68f}, makeRock(shape.seed)), nodeCount);
+        scatterRocks(builder, shape, ground, builder.addMaterial("rock", {0.75f, 0.72f, 0.68f}, makeRock(shape.seed)),
+                     nodeCount);
     if (shape.bushes > 0) {
         const int leaf = builder.addMaterial("leaves", {0.10f, 0.15f, 0.045f}, 0.7f);
         builder.material(leaf).doubleSided = true;
@@ -188,7 +203,7 @@ Result<Model> makeRocks(const RocksShape& shape) {
     for (int i = 0; i < shape.count; ++i) {
         const float radius = shape.smallest * std::pow(shape.largest / shape.smallest, dice.unit() * dice.unit());
         Vec2 at;
-        for (int attempt = 0; attempt < 12; ++attempt) {   // not inside one another, where there is room
+        for (int attempt = 0; attempt < 12; ++attempt) {  // not inside one another, where there is room
             at = {dice.range(-0.5f, 0.5f) * shape.area.x, dice.range(-0.5f, 0.5f) * shape.area.y};
             bool free = true;
             for (std::size_t k = placed.size() > 64 ? placed.size() - 64 : 0; k < placed.size(); ++k)

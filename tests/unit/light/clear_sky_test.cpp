@@ -63,7 +63,7 @@ TEST(ClearSky, GroundSendsBackItsAlbedo) {
     const Vec3 fromSky = evaluateIrradiance(projectSh(sky.environment), {0, 1, 0});
     const Vec3 expected = (fromSky + sky.sun.irradiance * std::sin(radians(50))) * (0.4f / kPi);
     const Vec3 down = lookUp(sky.environment, {0, -1, 0});
-    EXPECT_NEAR(down.y / expected.y, 1, 0.05);   // SH of order 2 is good to a few percent
+    EXPECT_NEAR(down.y / expected.y, 1, 0.05);  // SH of order 2 is good to a few percent
     const Vec3 dark = lookUp(makeClearSky(sunAt(50), 2, {0, 0, 0}).environment, {0, -1, 0});
     EXPECT_LT(dark.y, 0.05f * down.y);
 }
@@ -98,7 +98,8 @@ TEST(ClearSky, IsSymmetricAboutTheSunAndTheSameOnAnyThreadCount) {
     for (const float away : {10.0f, 70.0f, 150.0f})
         EXPECT_NEAR(skyAt(sky, 30, away).y, skyAt(sky, 30, -away).y, 0.01f * skyAt(sky, 30, away).y);
     const ThreadLimit one(1);
-    EXPECT_EQ(sky.environment.radiance.pixels, makeClearSky(sunAt(30), 3, {0.3f, 0.2f, 0.1f}, 64).environment.radiance.pixels);
+    EXPECT_EQ(sky.environment.radiance.pixels,
+              makeClearSky(sunAt(30), 3, {0.3f, 0.2f, 0.1f}, 64).environment.radiance.pixels);
 }
 
 TEST(ClearSky, ScalesWithTheSun) {
@@ -110,11 +111,11 @@ TEST(ClearSky, ScalesWithTheSun) {
 
 // Closed form: exponential air over the zenith has the depth coefficient times scale height.
 TEST(Atmosphere, ZenithDepthIsCoefficientTimesScaleHeight) {
-    const double ozone = 15;   // km: area of the ozone layer's triangle
+    const double ozone = 15;  // km: area of the ozone layer's triangle
     const Vec3 pure = Atmosphere(1).opticalDepth(kGroundKm, 1);
     EXPECT_NEAR(pure.z, 33.1e-3 * 8 + 0.085e-3 * ozone, 0.005 * 33.1e-3 * 8);
     const Vec3 hazy = Atmosphere(3).opticalDepth(kGroundKm, 1);
-    EXPECT_NEAR(hazy.y - pure.y, 2 * 13.558e-3 * 8, 0.01 * 2 * 13.558e-3 * 8);   // what turbidity means
+    EXPECT_NEAR(hazy.y - pure.y, 2 * 13.558e-3 * 8, 0.01 * 2 * 13.558e-3 * 8);  // what turbidity means
 }
 
 // Grazing rays against Simpson's rule with many steps, along which the table's cubic spacing could fail.
@@ -137,11 +138,12 @@ TEST(Atmosphere, SunlightMatchesItsDepthAndEndsInTheShadow) {
     const Atmosphere air(2);
     for (const double mu : {1.0, 0.5, 0.1, 0.03})
         for (const double altitude : {0.2, 3.0, 20.0}) {
-            const Vec3 depth = air.opticalDepth(kGroundKm + altitude, mu), light = air.sunlight(levelOf(kGroundKm + altitude), mu);
+            const Vec3 depth = air.opticalDepth(kGroundKm + altitude, mu),
+                       light = air.sunlight(levelOf(kGroundKm + altitude), mu);
             EXPECT_NEAR(light.y, std::exp(-depth.y), 0.01) << mu << " " << altitude;
         }
     EXPECT_EQ(air.sunlight(levelOf(kGroundKm), -0.01).x, 0);
-    EXPECT_GT(air.sunlight(levelOf(kGroundKm + 40), -0.05).x, 0);   // high up the sun has not set yet
+    EXPECT_GT(air.sunlight(levelOf(kGroundKm + 40), -0.05).x, 0);  // high up the sun has not set yet
 }
 
 TEST(SkyColor, FlatSpectrumIsWhiteAndBlueIsBlue) {
@@ -152,7 +154,7 @@ TEST(SkyColor, FlatSpectrumIsWhiteAndBlueIsBlue) {
     const Vec3 blue = colorOfThreeWavelengths({std::pow(550 / 680.0f, 4), 1, std::pow(550 / 440.0f, 4)});
     EXPECT_LT(blue.x, blue.y);
     EXPECT_LT(blue.y, blue.z);
-    EXPECT_EQ(colorOfThreeWavelengths({0, 0, 0}).x, colorOfThreeWavelengths({0, 0, 0}).x);   // no NaN
+    EXPECT_EQ(colorOfThreeWavelengths({0, 0, 0}).x, colorOfThreeWavelengths({0, 0, 0}).x);  // no NaN
 }
 
 }  // namespace

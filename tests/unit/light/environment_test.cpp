@@ -28,7 +28,7 @@ TEST(Environment, MiddleOfTheMapIsMinusZAndRightIsPlusX) {
     EXPECT_NEAR(middle.z, -1, 1e-3);
     EXPECT_GT(directionOfTexel(e, 384, 128).x, 0.99f);
     EXPECT_GT(directionOfTexel(e, 10, 0).y, 0.99f);
-    e.rotation = radians(90);   // counter-clockwise from above: what was at +x comes to -z
+    e.rotation = radians(90);  // counter-clockwise from above: what was at +x comes to -z
     EXPECT_LT(directionOfTexel(e, 384, 128).z, -0.99f);
 }
 
@@ -96,10 +96,10 @@ TEST(Environment, OneBrightTexelShinesFromItsDirection) {
 TEST(Environment, RotationTurnsTheHarmonics) {
     const auto lobe = [](Vec3 d) { return Vec3{std::max(0.0f, d.x), 0, 0}; };
     Environment e = mapOf(64, 0, lobe);
-    e.rotation = radians(90);   // the lobe at +x comes to -z
+    e.rotation = radians(90);  // the lobe at +x comes to -z
     const Sh9 sh = projectSh(e);
     const float facing = evaluateIrradiance(sh, {0, 0, -1}).x;
-    EXPECT_NEAR(facing, 2 * kPiD / 3, 0.02);   // integral of cos2 over the hemisphere
+    EXPECT_NEAR(facing, 2 * kPiD / 3, 0.02);  // integral of cos2 over the hemisphere
     EXPECT_LT(evaluateIrradiance(sh, {0, 0, 1}).x, 0.1f * facing);
 }
 

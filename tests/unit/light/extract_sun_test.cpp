@@ -27,8 +27,8 @@ std::array<double, 3> vectorIrradiance(const Environment& e, Vec3 d) {
         const double c0 = std::cos(kPiD * y / e.radiance.height), c1 = std::cos(kPiD * (y + 1) / e.radiance.height);
         for (int x = 0; x < e.radiance.width; ++x)
             for (std::size_t k = 0; k < 3; ++k)
-                sum[k] += double(e.radiance.at(x, y)[k]) * double(dot(d, directionOfTexel(e, x, y))) * (c0 - c1) * 2 * kPiD /
-                          e.radiance.width;
+                sum[k] += double(e.radiance.at(x, y)[k]) * double(dot(d, directionOfTexel(e, x, y))) * (c0 - c1) * 2 *
+                          kPiD / e.radiance.width;
     }
     return sum;
 }
@@ -48,7 +48,7 @@ TEST(ExtractSun, WhatLeavesTheMapIsTheSun) {
         EXPECT_NEAR(sun->irradiance.x, expected[0], 1e-4 * expected[0]);
         EXPECT_NEAR(sun->irradiance.y, expected[1], 1e-4 * expected[1]);
         EXPECT_NEAR(sun->irradiance.z, expected[2], 1e-4 * expected[2]);
-        for (const float v : e.radiance.pixels) EXPECT_FLOAT_EQ(v, 0.5f);   // the surroundings again
+        for (const float v : e.radiance.pixels) EXPECT_FLOAT_EQ(v, 0.5f);  // the surroundings again
         EXPECT_FALSE(extractSun(e).has_value());
     }
 }
@@ -67,9 +67,9 @@ TEST(ExtractSun, LeavesMapsWithoutASunAlone) {
     const Vec3 up = normalize(Vec3{0.2f, 0.7f, 0.1f});
     Environment even = skyWith(128, 1), dark = skyWith(128, 0), cloud = skyWith(128, 1), lamp = skyWith(128, 0.1f);
     Environment street = skyWith(256, 1);
-    addDisc(cloud, up, 0.03f, {12, 12, 12});          // bright, but no sun
-    addDisc(lamp, up, 0.12f, {3000, 3000, 3000});     // as bright as one, but 7 degrees wide
-    addDisc(street, up, 0.008f, {30, 30, 30});        // compact, but too little light
+    addDisc(cloud, up, 0.03f, {12, 12, 12});       // bright, but no sun
+    addDisc(lamp, up, 0.12f, {3000, 3000, 3000});  // as bright as one, but 7 degrees wide
+    addDisc(street, up, 0.008f, {30, 30, 30});     // compact, but too little light
     for (Environment* e : {&even, &dark, &cloud, &lamp, &street}) {
         const std::vector<float> before = e->radiance.pixels;
         EXPECT_FALSE(extractSun(*e).has_value());

@@ -45,7 +45,7 @@ TEST(View, IntrinsicsPutTheAxisOnThePrincipalPoint) {
     const Vec2 axis = pixelOf(view, {0, 0, -3});
     EXPECT_NEAR(axis.x, 300, 1e-3);
     EXPECT_NEAR(axis.y, 210, 1e-3);
-    const Vec2 aside = pixelOf(view, {1, -1, -10});   // right and down
+    const Vec2 aside = pixelOf(view, {1, -1, -10});  // right and down
     EXPECT_NEAR(aside.x, 350, 1e-3);
     EXPECT_NEAR(aside.y, 262, 1e-3);
     // The same camera drawn at half the size sees the same picture.
@@ -73,7 +73,7 @@ TEST(View, JitterMovesByPixelsAtEveryDepth) {
         for (const float depth : {1.0f, 30.0f}) {
             const Vec3 point{0.1f * depth, -0.05f * depth, -depth};
             EXPECT_NEAR(pixelOf(moved, point).x - pixelOf(view, point).x, 0.25f, 1e-3);
-            EXPECT_NEAR(pixelOf(moved, point).y - pixelOf(view, point).y, 0.5f, 1e-3);   // y counts down in pixels
+            EXPECT_NEAR(pixelOf(moved, point).y - pixelOf(view, point).y, 0.5f, 1e-3);  // y counts down in pixels
         }
     }
 }

@@ -53,11 +53,13 @@ void checkPrimitive(const Model& model, const Primitive& p, const std::string& w
     Bounds bounds;
     for (std::size_t i = 0; i < count; ++i) {
         bounds.add(p.positions[i]);
-        badVertices += !finite(p.positions[i]) || std::abs(length(p.normals[i]) - 1) > 1e-3f || !std::isfinite(p.uv0[i].x + p.uv0[i].y);
+        badVertices += !finite(p.positions[i]) || std::abs(length(p.normals[i]) - 1) > 1e-3f ||
+                       !std::isfinite(p.uv0[i].x + p.uv0[i].y);
         badVertices += !(p.colors[i].x >= 0 && p.colors[i].x < 3 && p.colors[i].y >= 0 && p.colors[i].z >= 0);
         if (p.tangents.empty()) continue;
         const Vec3 t{p.tangents[i].x, p.tangents[i].y, p.tangents[i].z};
-        badTangents += std::abs(length(t) - 1) > 1e-3f || std::abs(dot(t, p.normals[i])) > 1e-3f || std::abs(p.tangents[i].w) != 1;
+        badTangents +=
+            std::abs(length(t) - 1) > 1e-3f || std::abs(dot(t, p.normals[i])) > 1e-3f || std::abs(p.tangents[i].w) != 1;
     }
     for (const std::uint32_t i : p.indices) badIndices += i >= count;
     ASSERT_EQ(badIndices, 0u) << what;
@@ -87,8 +89,10 @@ void checkModel(const Model& model, const std::string& what) {
         EXPECT_EQ(node.parent, -1) << what;
     }
     for (const Material& m : model.materials)
-        for (const TextureUse* use : {&m.baseColorTexture, &m.normalTexture, &m.metallicRoughnessTexture}) EXPECT_LT(use->image, int(model.images.size())) << what;
-    for (const ByteImage& image : model.images) EXPECT_EQ(image.pixels.size(), std::size_t(image.width) * std::size_t(image.height) * 4) << what;
+        for (const TextureUse* use : {&m.baseColorTexture, &m.normalTexture, &m.metallicRoughnessTexture})
+            EXPECT_LT(use->image, int(model.images.size())) << what;
+    for (const ByteImage& image : model.images)
+        EXPECT_EQ(image.pixels.size(), std::size_t(image.width) * std::size_t(image.height) * 4) << what;
 }
 
 template <class T>
@@ -111,7 +115,8 @@ std::uint64_t hashOf(const Model& model) {
 std::size_t openEdges(const Primitive& p) {
     std::map<std::array<float, 3>, std::uint32_t> welded;
     std::vector<std::uint32_t> index;
-    for (const Vec3 v : p.positions) index.push_back(welded.try_emplace({v.x, v.y, v.z}, std::uint32_t(welded.size())).first->second);
+    for (const Vec3 v : p.positions)
+        index.push_back(welded.try_emplace({v.x, v.y, v.z}, std::uint32_t(welded.size())).first->second);
     std::map<std::pair<std::uint32_t, std::uint32_t>, int> uses;
     for (std::size_t i = 0; i < p.indices.size(); i += 3)
         for (std::size_t k = 0; k < 3; ++k) ++uses[{index[p.indices[i + k]], index[p.indices[i + (k + 1) % 3]]}];
@@ -126,7 +131,9 @@ std::size_t openEdges(const Primitive& p) {
 double volumeOf(const Primitive& p) {
     double sum = 0;
     for (std::size_t i = 0; i < p.indices.size(); i += 3)
-        sum += double(dot(p.positions[p.indices[i]], cross(p.positions[p.indices[i + 1]], p.positions[p.indices[i + 2]]))) / 6;
+        sum += double(dot(p.positions[p.indices[i]],
+                          cross(p.positions[p.indices[i + 1]], p.positions[p.indices[i + 2]]))) /
+               6;
     return sum;
 }
 
@@ -144,12 +151,15 @@ TEST(Shapes, ExtremeParametersWork) {
     checkModel(make("terrain", {{"island", "false"}, {"size", "2000"}, {"cells", "64"}, {"roughness", "1"}}), "hills");
     checkModel(make("tank", {{"width", "0.1"}, {"depth", "0.1"}, {"height", "0.05"}}), "tiny tank");
     checkModel(make("tank", {{"walls", "glass"}, {"width", "50"}}), "glass tank");
-    checkModel(make("pier", {{"length", "1"}, {"width", "0.5"}, {"waterDepth", "0"}, {"deckHeight", "0.2"}}), "short pier");
+    checkModel(make("pier", {{"length", "1"}, {"width", "0.5"}, {"waterDepth", "0"}, {"deckHeight", "0.2"}}),
+               "short pier");
     checkModel(make("quay", {{"length", "2"}, {"width", "1"}, {"waterDepth", "0"}, {"height", "0.4"}}), "short quay");
     checkModel(make("hall", {{"length", "4"}, {"width", "4"}, {"height", "3"}, {"bays", "1"}}), "shed");
     checkModel(make("hall", {{"roof", "false"}, {"frontWall", "false"}, {"shelves", "false"}}), "open hall");
     checkModel(make("plaza", {{"size", "8"}, {"center", "statue"}, {"pattern", "checker"}}), "small plaza");
-    checkModel(make("plaza", {{"benches", "0"}, {"trees", "0"}, {"lamps", "0"}, {"walls", "false"}, {"center", "none"}}), "bare plaza");
+    checkModel(
+        make("plaza", {{"benches", "0"}, {"trees", "0"}, {"lamps", "0"}, {"walls", "false"}, {"center", "none"}}),
+        "bare plaza");
     checkModel(make("rocks", {{"count", "1"}, {"area", "[0, 0]"}}), "one rock");
     for (const char* surface : {"wood", "stone", "concrete", "sand", "grit", "tiles"})
         checkModel(make("box", {{"surface", surface}}), surface);
@@ -169,7 +179,8 @@ TEST(Shapes, AnotherSeedIsAnotherShape) {
 }
 
 TEST(Shapes, SimpleSolidsAreClosedAndAsBigAsAsked) {
-    const Model box = make("box", {{"size", "[2, 3, 4]"}, {"bevel", "0"}}), rounded = make("box", {{"size", "[2, 3, 4]"}, {"bevel", "0.1"}});
+    const Model box = make("box", {{"size", "[2, 3, 4]"}, {"bevel", "0"}}),
+                rounded = make("box", {{"size", "[2, 3, 4]"}, {"bevel", "0.1"}});
     for (const Model* model : {&box, &rounded}) {
         EXPECT_EQ(openEdges(model->meshes[0].primitives[0]), 0u);
         EXPECT_EQ(boundsOf(*model).lo, (Vec3{-1, 0, -2}));
@@ -183,10 +194,12 @@ TEST(Shapes, SimpleSolidsAreClosedAndAsBigAsAsked) {
     EXPECT_NEAR(volumeOf(sphere.meshes[0].primitives[0]), 32 * kPiD / 3, 0.05);
     EXPECT_NEAR(boundsOf(sphere).lo.y, 0, 1e-5);
     const Primitive& p = sphere.meshes[0].primitives[0];
-    for (std::size_t i = 0; i < p.vertexCount(); ++i) EXPECT_GT(dot(p.normals[i], normalize(p.positions[i] - Vec3{0, 2, 0})), 0.999f);
+    for (std::size_t i = 0; i < p.vertexCount(); ++i)
+        EXPECT_GT(dot(p.normals[i], normalize(p.positions[i] - Vec3{0, 2, 0})), 0.999f);
 
     for (const char* bevel : {"0", "0.05"}) {
-        const Model cylinder = make("cylinder", {{"radius", "1"}, {"height", "2"}, {"segments", "256"}, {"bevel", bevel}});
+        const Model cylinder =
+            make("cylinder", {{"radius", "1"}, {"height", "2"}, {"segments", "256"}, {"bevel", bevel}});
         EXPECT_EQ(openEdges(cylinder.meshes[0].primitives[0]), 0u) << bevel;
         EXPECT_NEAR(volumeOf(cylinder.meshes[0].primitives[0]), 2 * kPiD, 0.03);
     }
@@ -194,7 +207,8 @@ TEST(Shapes, SimpleSolidsAreClosedAndAsBigAsAsked) {
 }
 
 TEST(Shapes, TextureRunsAlongTheTangentAndUpThePicture) {
-    // For every triangle: the position's derivative by u lies along the tangent, by v against cross(normal, tangent) * w.
+    // For every triangle: the position's derivative by u lies along the tangent, by v against cross(normal, tangent) *
+    // w.
     for (const char* kind : {"box", "plane", "cylinder"}) {
         const Model model = make(kind, {{"surface", "stone"}});
         const Primitive& p = model.meshes[0].primitives[0];
@@ -209,7 +223,7 @@ TEST(Shapes, TextureRunsAlongTheTangentAndUpThePicture) {
             const Vec3 t{p.tangents[a].x, p.tangents[a].y, p.tangents[a].z};
             wrong += dot(byU, t) <= 0 || dot(byV, cross(p.normals[a], t) * p.tangents[a].w) >= 0;
         }
-        EXPECT_LE(wrong, p.triangleCount() / 5) << kind;   // only corners of bevels, which smear on purpose
+        EXPECT_LE(wrong, p.triangleCount() / 5) << kind;  // only corners of bevels, which smear on purpose
         if (std::string(kind) == "plane") {
             EXPECT_EQ(wrong, 0u);
         }
@@ -221,10 +235,12 @@ TEST(Shapes, ScenesHaveTheirMeasures) {
     EXPECT_NEAR(tank.size().x, 4.2, 0.2);
     EXPECT_GT(tank.hi.y, 2);
     EXPECT_LT(tank.hi.y, 2.15f);
-    const Bounds pier = boundsOf(make("pier", {{"length", "12"}, {"waterDepth", "3"}, {"deckHeight", "1"}, {"props", "0"}}));
+    const Bounds pier =
+        boundsOf(make("pier", {{"length", "12"}, {"waterDepth", "3"}, {"deckHeight", "1"}, {"props", "0"}}));
     EXPECT_NEAR(pier.lo.z, -12, 0.3);
     EXPECT_NEAR(pier.lo.y, -3, 0.1);
-    const Bounds quay = boundsOf(make("quay", {{"length", "20"}, {"height", "1.5"}, {"props", "0"}, {"bollards", "0"}}));
+    const Bounds quay =
+        boundsOf(make("quay", {{"length", "20"}, {"height", "1.5"}, {"props", "0"}, {"bollards", "0"}}));
     EXPECT_NEAR(quay.size().x, 20, 0.1);
     EXPECT_NEAR(quay.hi.y, 1.5, 0.02);
     const Bounds hall = boundsOf(make("hall", {{"length", "30"}, {"width", "16"}, {"height", "6"}}));
