@@ -75,6 +75,7 @@ void addCompare(CLI::App& app, CompareOptions& o) {
     CLI::App* verb = app.add_subcommand("compare", "Tells how far two pictures are apart; exit code 1 when a limit is passed");
     verb->add_option("a", o.a, "picture")->required();
     verb->add_option("b", o.b, "picture it is compared with (the reference)")->required();
+    verb->add_option("--layer", o.layer, "layer of an .exr that is compared instead of the picture, such as depth");
     verb->add_option("--max-rmse", o.maxRmse, "fails above this root mean square difference");
     verb->add_option("--min-psnr", o.minPsnr, "fails below this peak signal to noise ratio, dB");
     verb->add_option("--min-ssim", o.minSsim, "fails below this mean structural similarity");

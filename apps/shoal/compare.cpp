@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include <shoal/core/compare.h>
+#include <shoal/core/params.h>
 #include <shoal/io/image.h>
 
 #include "verbs.h"
@@ -11,8 +12,19 @@ namespace shoal::app {
 
 namespace {
 
+Result<Image> readLayer(const std::string& file, const std::string& name) {
+    SHOAL_TRY_ASSIGN(std::vector<Layer> layers, io::readLayers(file));
+    std::vector<std::string> known;
+    for (Layer& layer : layers) {
+        if (layer.name == name) return std::move(layer.image);
+        known.push_back(layer.name);
+    }
+    return usageError("--layer: " + file + ": " + unknownWord("layer", name, known));
+}
+
 // PNG and JPEG are compared by their stored values, EXR and HDR by their radiance.
-Result<Image> readForCompare(const std::string& file) {
+Result<Image> readForCompare(const std::string& file, const std::string& layer) {
+    if (!layer.empty()) return readLayer(file, layer);
     const auto format = io::imageFormatOf(std::filesystem::path(file));
     if (format && (*format == io::ImageFormat::exr || *format == io::ImageFormat::hdr)) return io::readImage(file);
     SHOAL_TRY_ASSIGN(const ByteImage bytes, io::readByteImage(file));
@@ -44,8 +56,8 @@ Result<void> writeDifference(const CompareOptions& o, const Image& a, const Imag
 }
 
 Result<int> run(const CompareOptions& o) {
-    SHOAL_TRY_ASSIGN(Image a, readForCompare(o.a));
-    SHOAL_TRY_ASSIGN(Image b, readForCompare(o.b));
+    SHOAL_TRY_ASSIGN(Image a, readForCompare(o.a, o.layer));
+    SHOAL_TRY_ASSIGN(Image b, readForCompare(o.b, o.layer));
     // RGB against RGBA: the colours are what both have.
     const int channels = std::min(a.channelCount, b.channelCount);
     if (a.channelCount != b.channelCount && channels == 3) a = firstChannels(a, 3), b = firstChannels(b, 3);

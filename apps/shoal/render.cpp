@@ -1,8 +1,8 @@
 // shoal render
-#include <unistd.h>
-
+#include <atomic>
 #include <chrono>
 #include <cmath>
+#include <csignal>
 #include <cstdio>
 #include <filesystem>
 
@@ -16,6 +16,14 @@
 namespace shoal::app {
 
 namespace {
+
+// Set by ^C: the frame under way is finished, then what is half written is removed.
+std::atomic<bool> stopAsked = false;
+
+void askToStop(int) {
+    stopAsked = true;
+    std::signal(SIGINT, SIG_DFL);   // a second ^C stops at once
+}
 
 // The command line as overrides of the scene, so that one place checks every value.
 Result<std::vector<scene::Override>> overridesOf(const RenderOptions& o) {
@@ -85,9 +93,13 @@ Result<void> run(const RenderOptions& o) {
         output.endFrame = std::max(1, int(std::lround(scene.render.duration * scene.render.fps)));
     }
     std::optional<ProgressBar> bar;
-    if (!o.quiet && !output.isStill) {
-        bar.emplace("rendering", "frames", stderr);
-        output.progress = [&](std::uint64_t done, std::uint64_t total) { return bar->update(done, total), true; };
+    if (!output.isStill) {
+        std::signal(SIGINT, askToStop);
+        if (!o.quiet) bar.emplace("rendering", "frames", stderr);
+        output.progress = [&](std::uint64_t done, std::uint64_t total) {
+            if (bar) bar->update(done, total);
+            return !stopAsked;
+        };
     }
     SHOAL_TRY_ASSIGN(const auto written, pipeline::renderToFile(*pipeline, requestOf(scene.render), o.output, output));
     if (bar) bar->finish();

@@ -86,6 +86,7 @@ struct Pipeline::State {
     std::vector<std::string> aovNames;
     light::View view;
     bool hasView = false;
+    std::uint32_t frameCount = 0;
 
     State(gl::Device& device, frame::Lighting lighting, frame::Post post)
         : device(device), timer(device), lighting(std::move(lighting)), post(std::move(post)) {}
@@ -118,7 +119,7 @@ frame::Context Pipeline::State::makeContext(const FrameRequest& request) {
     context.view = request.camera ? light::makeView(*request.camera, request.width, request.height) : viewAt(request.time);
     context.time = request.time;
     context.timeStep = request.frameIndex == 0 ? 0 : request.timeStep;
-    context.frameIndex = request.frameIndex;
+    context.frameIndex = ++frameCount;   // request.frameIndex may be the same twice: two stills
     context.previousView = context.view;
     if (request.frameIndex > 0) {
         if (!request.camera) context.previousView = viewAt(request.time - request.timeStep);
@@ -140,7 +141,6 @@ void Pipeline::State::moveInstances(float time) {
 void Pipeline::State::drawNeededViews(const frame::Context& context) {
     loaded->shadows->prepare(context, loaded->shadowParams, loaded->content.sun ? &*loaded->content.sun : nullptr, loaded->content.lights,
                              loaded->geometry->bounds());
-    gl::PassScope pass(&timer, "shadow views");
     for (frame::NeededView& needed : loaded->shadows->neededViews()) {
         if (needed.unchanged && !loaded->geometry->changed(needed.view)) continue;
         loaded->geometry->drawDepth(context, needed);
@@ -159,28 +159,20 @@ bool Pipeline::State::wantsTerms() const {
 
 void Pipeline::State::drawSample(const frame::Context& context) {
     frame::Geometry& geometry = *loaded->geometry;
+    targets->beginSurfaces();
+    geometry.drawSurfaces(context, targets->gbuffer());
+    targets->finishSurfaces(context);
+    lighting.prepare(context, loaded->lightingParams, lights(), *targets);
+    lighting.shade(context, loaded->lightingParams, *loaded->shadows, {}, *targets);
+    if (!geometry.hasTransparent()) return;
     {
-        gl::PassScope pass(&timer, "surfaces");
-        targets->beginSurfaces();
-        geometry.drawSurfaces(context, targets->gbuffer());
-        targets->finishSurfaces(context);
-    }
-    {
-        gl::PassScope pass(&timer, "occlusion");
-        lighting.prepare(context, loaded->lightingParams, lights(), *targets);
-    }
-    {
-        gl::PassScope pass(&timer, "shade");
-        lighting.shade(context, loaded->lightingParams, *loaded->shadows, {}, *targets);
-    }
-    if (geometry.hasTransparent()) {
-        gl::PassScope pass(&timer, "transparent");
+        gl::PassScope pass(&timer, "copy opaque");
         targets->copyOpaque();
-        targets->forward().bind();
-        lighting.bind();
-        loaded->shadows->bind();
-        geometry.drawTransparent(context, targets->opaqueCopy(), targets->gbuffer().viewDepth);
     }
+    targets->forward().bind();
+    lighting.bind();
+    loaded->shadows->bind();
+    geometry.drawTransparent(context, targets->opaqueCopy(), targets->gbuffer().viewDepth);
 }
 
 Pipeline::Pipeline(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -238,11 +230,8 @@ Result<void> Pipeline::render(const FrameRequest& request) {
     frame::Context context = s.makeContext(request);
     const bool temporal = request.antialiasing == "temporal";
     const int sampleCount = request.antialiasing == "supersample" ? std::max(request.samples, 1) : 1;
-    {
-        gl::PassScope pass(&s.timer, "pose and skin");
-        s.moveInstances(request.time);
-        s.loaded->geometry->update(context);
-    }
+    s.moveInstances(request.time);
+    s.loaded->geometry->update(context);
     s.drawNeededViews(context);
     s.lighting.setTermsWanted(false);
     if (!temporal) s.post.beginAccumulation(request.width, request.height);
@@ -251,14 +240,10 @@ Result<void> Pipeline::render(const FrameRequest& request) {
         if (temporal) context.jitterPx = frame::samplePattern(int(request.frameIndex % 16), 16);
         else if (sampleCount > 1) context.jitterPx = frame::samplePattern(i, sampleCount);
         s.drawSample(context);
-        gl::PassScope pass(&s.timer, "antialias");
         if (temporal) s.post.temporal(context, *s.targets, request.frameIndex == 0);
         else s.post.accumulate(context, *s.targets);
     }
-    {
-        gl::PassScope pass(&s.timer, "present");
-        s.post.present(context, s.loaded->postParams, request.frameIndex == 0);
-    }
+    s.post.present(context, s.loaded->postParams, request.frameIndex == 0);
     s.timer.endFrame();
     const bool centred = context.jitterPx == Vec2{};
     if (!s.aovNames.empty() && !(centred && !s.wantsTerms())) {
