@@ -28,7 +28,7 @@ constexpr double kSunHalfAngle = 0.004654;                 // radians
 constexpr int kDensityCount = 4096;
 constexpr int kSunMuCount = 256, kAltitudeCount = 64;  // transmittance table
 constexpr int kDepthSteps = 24;
-constexpr int kScatterMuCount = 32, kScatterAltitudeCount = 32;  // multiple scattering table
+constexpr int kScatterMuCount = 32, kScatterAltitudeCount = 24;  // multiple scattering table
 constexpr int kScatterSteps = 12, kScatterAzimuthCount = 4;
 
 const double kHorizonKm =
