@@ -39,6 +39,10 @@ void Exposure::measureForAntialiasing(gl::TextureView radiance) {
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
+void Exposure::setForAntialiasing(float factor) {
+    state_.write(offsetof(ExposureState, antialiasing), std::as_bytes(std::span(&factor, 1)));
+}
+
 void Exposure::adapt(gl::TextureView radiance, bool weighted, float share, bool forget) {
     count(radiance, weighted);
     adapt_->set(0, Vec4{share, forget ? 1.0f : 0.0f, 0, 0});

@@ -12,6 +12,7 @@ public:
     static Result<Exposure> create(gl::Device& device);
     // Sets the factor that weighs samples against each other (exposure.io.glsl, displayWeight) from a picture.
     void measureForAntialiasing(gl::TextureView radiance);
+    void setForAntialiasing(float factor);
     // Follows the picture's brightness; share: how far to go in this step, 0..1. weighted: rgb is divided by a first.
     void adapt(gl::TextureView radiance, bool weighted, float share, bool forget);
     void bind() const;          // at SHOAL_STORAGE_PASS

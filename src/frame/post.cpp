@@ -79,6 +79,7 @@ struct Post::State {
 
     gl::Texture display;
     gl::Framebuffer toDisplay;
+    float expectedExposure = 0;
     float fixedFactor = 1;
     bool automatic = false;
 
@@ -89,6 +90,7 @@ struct Post::State {
     bool ready(const Result<void>& result, const char* what);
     gl::TextureView linear();
     bool accumulated() const { return source == Source::accumulated; }
+    void weighSamples(gl::TextureView radiance);
     void bindSource() const;
     void setReprojection(const Context& context);
     const gl::Program* presentVariant(int wanted);
@@ -156,6 +158,11 @@ gl::TextureView Post::State::linear() {
     return resolved.view();
 }
 
+void Post::State::weighSamples(gl::TextureView radiance) {
+    if (expectedExposure > 0) exposure.setForAntialiasing(expectedExposure);
+    else exposure.measureForAntialiasing(radiance);
+}
+
 void Post::State::bindSource() const {
     if (accumulated()) {
         bindInput(0, weightedSum);
@@ -212,6 +219,8 @@ Result<Post> Post::create(gl::Device& device) {
     return Post(std::move(state));
 }
 
+void Post::setExpectedExposure(float factor) { state_->expectedExposure = factor; }
+
 void Post::beginAccumulation(int width, int height) {
     State& s = *state_;
     if (!s.ready(s.resizeSums(width, height), "supersampling")) return;
@@ -226,7 +235,7 @@ void Post::accumulate(const Context& context, const Targets& targets) {
     SHOAL_ASSERT_MSG(s.accumulated(), "beginAccumulation() comes first");
     SHOAL_ASSERT(targets.radiance().width == s.width && targets.radiance().height == s.height);
     const gl::PassScope pass(context.timer, "accumulate");
-    if (s.sampleCount == 0) s.exposure.measureForAntialiasing(targets.radiance());
+    if (s.sampleCount == 0) s.weighSamples(targets.radiance());
     s.exposure.bind();
     bindInput(0, targets.radiance());
     s.toSums.bind();
@@ -250,7 +259,7 @@ void Post::temporal(const Context& context, const Targets& targets, bool reset) 
     s.source = State::Source::temporal;
     const gl::PassScope pass(context.timer, "temporal");
     const bool fresh = reset || !s.historyKnown;
-    if (fresh) s.exposure.measureForAntialiasing(radiance);
+    if (fresh) s.weighSamples(radiance);
     s.exposure.bind();
     bindInput(0, radiance);
     bindInput(1, targets.gbuffer().viewDepth);

@@ -37,6 +37,10 @@ public:
     Post& operator=(Post&&) noexcept;
     ~Post();
 
+    // The factor that present() will expose by, where it is known beforehand: samples of a pixel are weighed against each other as the
+    // display will show them. 0, the default: it is taken from the brightness of the first sample (or of the frame that resets a history).
+    void setExpectedExposure(float factor);
+
     // Supersampling: start a picture, add each jittered sample's radiance, then read radiance(). Sums are float32, in sample order.
     void beginAccumulation(int width, int height);
     void accumulate(const Context& context, const Targets& targets);

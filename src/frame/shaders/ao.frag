@@ -64,7 +64,7 @@ void main() {
     // An orthonormal frame about toEye, whose z is positive [Duff et al. 2017].
     float a = 1.0 / (1.0 + toEye.z), b = -toEye.x * toEye.y * a;
     vec3 right = vec3(1.0 - toEye.x * toEye.x * a, b, -toEye.x), up = vec3(b, 1.0 - toEye.y * toEye.y * a, -toEye.y);
-    float open = 0.0;
+    float open = 0.0, all = 0.0;
     for (int slice = 0; slice < kSlices; ++slice) {
         float angle = (float(slice) + turn) * (2.0 * kHalfPi / float(kSlices));
         // The slice is the plane of toEye and `tangent`, even around toEye; on the screen it runs `along`.
@@ -92,7 +92,8 @@ void main() {
         // [Jimenez et al. 2016] eq. 7: the arc between the horizons, weighted with the cosine to the normal.
         float arc = 2.0 * cosNormal + 2.0 * (h0 + h1) * sinNormal - cos(2.0 * h0 - n) - cos(2.0 * h1 - n);
         open += 0.25 * arc * projectedLength;
+        all += (cosNormal + n * sinNormal) * projectedLength;   // the same with nothing in the way
     }
-    // Not clamped: a few slices of an open plane average to 1 only together with those of the pixels around.
-    outOpen = vec2(depth > 0.0 ? open / float(kSlices) : 1.0, depth);
+    // A few slices of an open plane sum to 1 only together with those of the pixels around: what counts is how much of them is left.
+    outOpen = vec2(depth > 0.0 ? open / max(all, 1e-4) : 1.0, depth);
 }
