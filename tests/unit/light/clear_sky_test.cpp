@@ -151,7 +151,7 @@ TEST(SkyColor, FlatSpectrumIsWhiteAndBlueIsBlue) {
     EXPECT_NEAR(white.x, 2, 1e-4);
     EXPECT_NEAR(white.y, 2, 1e-4);
     EXPECT_NEAR(white.z, 2, 1e-4);
-    const Vec3 blue = colorOfThreeWavelengths({std::pow(550 / 680.0f, 4), 1, std::pow(550 / 440.0f, 4)});
+    const Vec3 blue = colorOfThreeWavelengths({std::pow(550 / 680.0f, 4.0f), 1, std::pow(550 / 440.0f, 4.0f)});
     EXPECT_LT(blue.x, blue.y);
     EXPECT_LT(blue.y, blue.z);
     EXPECT_EQ(colorOfThreeWavelengths({0, 0, 0}).x, colorOfThreeWavelengths({0, 0, 0}).x);  // no NaN
