@@ -92,9 +92,11 @@ int batchOf(State& s, const Draw& draw, bool posed, bool mirrored) {
     return s.batches.index({m.variant, m.masked, m.doubleSided, mirrored, posed, m.variant == SurfaceVariant::flat ? -1 : draw.material});
 }
 
-int depthBatchOf(State& s, const Draw& draw, bool posed) {
+// Back faces are left out only where that changes no shadow: single walls and rooms keep the sun out from both sides.
+int depthBatchOf(State& s, const Draw& draw, bool posed, bool mirrored, bool bothSides) {
     const GpuMaterial& m = s.materials.at(draw.material);
-    return s.batches.index({SurfaceVariant::flat, m.maskedShadow, true, false, posed, m.maskedShadow ? draw.material : -1});
+    return s.batches.index({SurfaceVariant::flat, m.maskedShadow, bothSides, bothSides ? false : mirrored, posed,
+                            m.maskedShadow ? draw.material : -1});
 }
 
 // Records, boxes and batches of one instance's draws. What was current becomes previous.
@@ -116,6 +118,8 @@ void moveDraws(State& s, GeometryInstance& instance) {
         const bool mirrored = determinant3(matrix) < 0;
         record.flags = mirrored ? SHOAL_DRAW_MIRRORED : 0;
         draw.batch = batchOf(s, draw, s.drawJob[d] >= 0, mirrored);
+        const bool bothSides = s.materials.at(draw.material).doubleSided || !shadowsByFrontFaces(p.shell, matrix);
+        draw.depthBatch = depthBatchOf(s, draw, s.drawJob[d] >= 0, mirrored, bothSides);
         draw.box = worldBox(instance, p, node, draw.node);
         bounds.add(boundsOf(draw.box));
     }
@@ -155,7 +159,6 @@ void State::rebuild() {
         records[d].material = std::uint32_t(draw.material);
         records[d].objectId = instance.desc.objectId;
         records[d].tint = instance.desc.tint;
-        draw.depthBatch = depthBatchOf(*this, draw, drawJob[d] >= 0);
         if (drawJob[d] < 0) continue;
         const Node& node = models[std::size_t(instance.desc.model)].skeleton.nodes[std::size_t(draw.node)];
         SkinJob& job = jobs[std::size_t(drawJob[d])];

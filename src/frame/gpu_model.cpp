@@ -137,6 +137,36 @@ Result<std::uint32_t> appendAll(gl::Device& device, GrowBuffer& buffer, const st
 
 }  // namespace
 
+Shell shellOf(const ModelMesh& mesh) {
+    Bounds bounds;
+    for (const Primitive& p : mesh.primitives)
+        for (const Vec3& v : p.positions) bounds.add(v);
+    const Vec3 center = (bounds.lo + bounds.hi) * 0.5f;
+    Shell shell;
+    for (const Primitive& p : mesh.primitives)
+        for (std::size_t i = 0; i + 2 < p.indices.size(); i += 3) {
+            const Vec3 a = p.positions[p.indices[i]] - center, b = p.positions[p.indices[i + 1]] - center,
+                       c = p.positions[p.indices[i + 2]] - center;
+            const Vec3 area = cross(b - a, c - a) * 0.5f;
+            shell.area += area;
+            shell.total += length(area);
+            shell.volume += double(dot(area, a)) / 3;
+        }
+    return shell;
+}
+
+bool shadowsByFrontFaces(const Shell& shell, const Mat4& worldFromModel) {
+    constexpr float kOpenAside = 0.06f, kOpenBelow = 0.35f;   // shares of the surface that may be missing
+    if (!(shell.volume > 0)) return false;
+    const Mat3 m = normalMatrix(worldFromModel);
+    const Vec3 a = shell.area;
+    const Vec3 world{m.m[0] * a.x + m.m[3] * a.y + m.m[6] * a.z, m.m[1] * a.x + m.m[4] * a.y + m.m[7] * a.z,
+                     m.m[2] * a.x + m.m[5] * a.y + m.m[8] * a.z};
+    const float scale = std::cbrt(std::abs(determinant3(worldFromModel)));
+    const float total = shell.total * scale * scale;
+    return std::hypot(world.x, world.z) < kOpenAside * total && world.y > -kOpenAside * total && world.y < kOpenBelow * total;
+}
+
 PackedFrame packFrame(Vec3 normal, Vec4 tangent) {
     const glsl::vec2 e = dot(normal, normal) > 0 ? glsl::octahedralFromNormal({normal.x, normal.y, normal.z}) : glsl::vec2(0, 0);
     return {snorm(e.x, 16) | snorm(e.y, 16) << 16, snorm(tangent.x, 10) | snorm(tangent.y, 10) << 10 | snorm(tangent.z, 10) << 20 |
@@ -176,8 +206,10 @@ Result<GpuModel> MeshStore::add(gl::Device& device, const Model& model, int firs
     std::size_t next = 0;
     for (const ModelMesh& mesh : model.meshes) {
         std::vector<GpuPrimitive>& primitives = gpu.meshes.emplace_back();
+        const Shell shell = shellOf(mesh);
         for (const Primitive& p : mesh.primitives) {
             primitives.push_back(packPrimitive(p, next, packed));
+            primitives.back().shell = shell;
             primitives.back().material = p.material < 0 ? 0 : firstMaterial + p.material;
             next += p.vertexCount();
         }

@@ -40,11 +40,22 @@ struct JointBox {
     Bounds box;
 };
 
+// What tells whether a mesh is a closed shell that faces outwards.
+struct Shell {
+    Vec3 area;           // sum of the triangles' area vectors: zero for a closed surface, else what its holes lack
+    float total = 0;     // sum of their sizes
+    double volume = 0;   // signed; positive where triangles face outwards
+};
+// Whether a shell casts the same shadow when its back faces are left out: it faces outwards, and where it is open it is open to the ground.
+Shell shellOf(const ModelMesh& mesh);
+bool shadowsByFrontFaces(const Shell& shell, const Mat4& worldFromModel);
+
 struct GpuPrimitive {
     std::uint32_t firstIndex = 0, indexCount = 0;
     std::uint32_t firstVertex = 0, vertexCount = 0;
     int material = 0;                       // of the store
     Bounds bounds;                          // bind pose
+    Shell shell;                            // of all of the mesh
     bool skinned = false;
     std::uint32_t firstInfluence = 0;       // skinned only
     std::uint32_t firstMorph = 0, morphCount = 0;   // targets lie one after another, vertexCount offsets each

@@ -8,6 +8,7 @@
 #include "frame/glsl_math.h"
 #include "frame/gpu_model.h"
 #include "frame/gpu_texture.h"
+#include "support/frame_scene.h"
 
 namespace shoal::frame {
 namespace {
@@ -64,6 +65,24 @@ TEST(Packing, WeightsSumToOneExactly) {
     }
     EXPECT_EQ(packInfluence({0, 0, 0, 0}, {1, 0, 0, 0}).weights01, 65535u);
     EXPECT_EQ(packInfluence({0, 0, 0, 0}, {0, 0, 0, 0}).weights01, 65535u) << "no weights: the first joint";
+}
+
+TEST(Shell, OnlyOutwardShellsOpenToTheGroundLeaveOutTheirBackFaces) {
+    auto meshOf = [](std::vector<Primitive> parts) { return ModelMesh{"mesh", std::move(parts), {}}; };
+    const Mat4 here;
+    const Primitive box = test::box({-1, 0, -1}, {1, 2, 1});
+    EXPECT_TRUE(shadowsByFrontFaces(shellOf(meshOf({box})), here));
+    EXPECT_TRUE(shadowsByFrontFaces(shellOf(meshOf({box})), scaling({-2, 3, 1}))) << "a mirror keeps it closed";
+    Primitive room = box;   // seen from inside
+    for (std::size_t i = 0; i < room.indices.size(); i += 3) std::swap(room.indices[i], room.indices[i + 1]);
+    EXPECT_FALSE(shadowsByFrontFaces(shellOf(meshOf({room})), here));
+    EXPECT_FALSE(shadowsByFrontFaces(shellOf(meshOf({test::quad({0, 0, 0}, {1, 0, 0}, {0, 1, 0})})), here)) << "a single wall";
+    Primitive withoutFloor = box, withoutWall = box;   // sides in the order -z, +z, -y, +y, -x, +x
+    withoutFloor.indices.erase(withoutFloor.indices.begin() + 12, withoutFloor.indices.begin() + 18);
+    withoutWall.indices.erase(withoutWall.indices.begin(), withoutWall.indices.begin() + 6);
+    EXPECT_TRUE(shadowsByFrontFaces(shellOf(meshOf({withoutFloor})), here));
+    EXPECT_FALSE(shadowsByFrontFaces(shellOf(meshOf({withoutFloor})), rotation(axisAngle({1, 0, 0}, kPi)))) << "upside down";
+    EXPECT_FALSE(shadowsByFrontFaces(shellOf(meshOf({withoutWall})), here));
 }
 
 TEST(GBufferLib, FlagsAndReflectanceSurviveEightBits) {
