@@ -19,7 +19,7 @@ const int kSlices = 2;
 const int kSteps = 3;
 const float kHalfPi = 1.57079632679;
 // Farther than this part of the picture's height samples miss the structure between them.
-const float kLargestRadius = 0.22;
+const float kLargestRadius = 0.35;
 
 // [Lagarde 2014] within 0.0003 rad of acos for x in [-1, 1].
 float fastAcos(float x) {
@@ -83,7 +83,7 @@ void main() {
         float ahead = leastAhead, behind = leastBehind;
         for (int i = 0; i < kSteps; ++i) {
             float t = (float(i) + shift) / float(kSteps);
-            vec2 offset = along * max(t * t * radiusPx, float(i) + 1.5);
+            vec2 offset = along * max(t * (0.4 + 0.6 * t) * radiusPx, float(i) + 1.5);   // denser near
             ahead = raised(ahead, leastAhead, pixel + offset, position, toEye, normal);
             behind = raised(behind, leastBehind, pixel - offset, position, toEye, normal);
         }
