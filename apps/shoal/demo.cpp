@@ -42,6 +42,7 @@ Result<void> drawScene(pipeline::Pipeline& pipeline, const std::filesystem::path
     request.time = spec.time;
     request.antialiasing = spec.antialiasing;
     request.samples = spec.samples;
+    request.seed = spec.seed;
     const std::string output = (std::filesystem::path(o.folder) / file.stem()).string();
     const auto drawStart = Clock::now();
     SHOAL_TRY(pipeline::renderToFile(pipeline, request, output + ".png", {}));

@@ -51,6 +51,7 @@ pipeline::FrameRequest requestOf(const scene::RenderSpec& spec) {
     request.time = spec.time;
     request.antialiasing = spec.antialiasing;
     request.samples = spec.samples;
+    request.seed = spec.seed;
     return request;
 }
 

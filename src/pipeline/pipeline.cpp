@@ -5,6 +5,7 @@
 
 #include <epoxy/gl.h>
 
+#include <shoal/core/random.h>
 #include <shoal/frame/geometry.h>
 #include <shoal/frame/lighting.h>
 #include <shoal/frame/post.h>
@@ -16,6 +17,8 @@
 namespace shoal::pipeline {
 
 namespace {
+
+constexpr int kTemporalPattern = 16;   // frames after which the temporal jitter begins again
 
 // What a scene is on a device.
 struct Loaded {
@@ -72,6 +75,14 @@ Result<void> addInstances(Loaded& loaded) {
         loaded.moves = loaded.moves || instance.walk.has_value();
     }
     return {};
+}
+
+// Pattern point `index`, moved round the pixel by the seed: the points stay evenly spread.
+Vec2 sampleOffset(int index, int count, std::uint32_t seed) {
+    Vec2 p = frame::samplePattern(index, count);
+    if (seed == 1) return p;
+    p = p + Vec2{randomFloat(seed, 0), randomFloat(seed, 1)};
+    return {p.x > 0.5f ? p.x - 1 : p.x, p.y > 0.5f ? p.y - 1 : p.y};
 }
 
 }  // namespace
@@ -234,21 +245,24 @@ Result<void> Pipeline::render(const FrameRequest& request) {
     s.loaded->geometry->update(context);
     s.drawNeededViews(context);
     s.lighting.setTermsWanted(false);
+    const frame::PostParams& look = s.loaded->postParams;
+    s.post.setExpectedExposure(look.exposureMode == "fixed" ? std::exp2(look.exposureEv) : 0);
     if (!temporal) s.post.beginAccumulation(request.width, request.height);
+    const std::uint32_t firstSample = (request.seed - 1) * 4099;   // another place in the noise
     for (int i = 0; i < sampleCount; ++i) {
-        context.sampleIndex = std::uint32_t(i);
-        if (temporal) context.jitterPx = frame::samplePattern(int(request.frameIndex % 16), 16);
-        else if (sampleCount > 1) context.jitterPx = frame::samplePattern(i, sampleCount);
+        context.sampleIndex = firstSample + std::uint32_t(i);
+        if (temporal) context.jitterPx = sampleOffset(int(request.frameIndex % kTemporalPattern), kTemporalPattern, request.seed);
+        else if (sampleCount > 1) context.jitterPx = sampleOffset(i, sampleCount, request.seed);
         s.drawSample(context);
         if (temporal) s.post.temporal(context, *s.targets, request.frameIndex == 0);
         else s.post.accumulate(context, *s.targets);
     }
-    s.post.present(context, s.loaded->postParams, request.frameIndex == 0);
+    s.post.present(context, look, request.frameIndex == 0);
     s.timer.endFrame();
     const bool centred = context.jitterPx == Vec2{};
     if (!s.aovNames.empty() && !(centred && !s.wantsTerms())) {
         context.jitterPx = {};
-        context.sampleIndex = 0;
+        context.sampleIndex = firstSample;
         s.lighting.setTermsWanted(s.wantsTerms());
         s.drawSample(context);
     }

@@ -28,6 +28,7 @@ struct FrameRequest {
     std::uint32_t frameIndex = 0;        // 0 begins a sequence: history and automatic exposure start anew
     std::string antialiasing = "supersample";   // "none", "supersample", "temporal"
     int samples = 8;                     // of supersample
+    std::uint32_t seed = 1;              // shifts where samples fall in the pixel and the noise of ambient occlusion
     std::optional<light::Camera> camera; // instead of the scene's
 };
 
