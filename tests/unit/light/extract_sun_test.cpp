@@ -11,12 +11,27 @@ Environment skyWith(int height, float level) {
     return e;
 }
 
+// Brightest in its middle, by a hundredth, so that it is clear where extraction starts.
 void addDisc(Environment& e, Vec3 toSun, float radius, Vec3 radiance) {
     for (int y = 0; y < e.radiance.height; ++y)
         for (int x = 0; x < e.radiance.width; ++x) {
-            if (length(directionOfTexel(e, x, y) - toSun) > radius) continue;
+            const float away = length(directionOfTexel(e, x, y) - toSun) / radius;
+            if (away > 1) continue;
             float* p = e.radiance.at(x, y);
-            p[0] = radiance.x, p[1] = radiance.y, p[2] = radiance.z;
+            const float value = 1.01f - 0.01f * away;
+            p[0] = radiance.x * value, p[1] = radiance.y * value, p[2] = radiance.z * value;
+        }
+}
+
+// A lamp of 7 degrees by 1.
+void addTube(Environment& e, Vec3 middle, float radiance) {
+    const Vec3 along = normalize(cross(middle, Vec3{0, 1, 0})), across = cross(middle, along);
+    for (int y = 0; y < e.radiance.height; ++y)
+        for (int x = 0; x < e.radiance.width; ++x) {
+            const Vec3 d = directionOfTexel(e, x, y);
+            const float a = std::abs(dot(d, along)), b = std::abs(dot(d, across));
+            if (dot(d, middle) < 0 || a > 0.062f || b > 0.009f) continue;
+            for (int k = 0; k < 3; ++k) e.radiance.at(x, y)[k] = radiance * (1.01f - 0.01f * a / 0.062f);
         }
 }
 
@@ -65,12 +80,14 @@ TEST(ExtractSun, FindsASunAcrossTheSeamAndAtThePole) {
 
 TEST(ExtractSun, LeavesMapsWithoutASunAlone) {
     const Vec3 up = normalize(Vec3{0.2f, 0.7f, 0.1f});
-    Environment even = skyWith(128, 1), dark = skyWith(128, 0), cloud = skyWith(128, 1), lamp = skyWith(128, 0.1f);
-    Environment street = skyWith(256, 1);
-    addDisc(cloud, up, 0.03f, {12, 12, 12});       // bright, but no sun
-    addDisc(lamp, up, 0.12f, {3000, 3000, 3000});  // as bright as one, but 7 degrees wide
-    addDisc(street, up, 0.008f, {30, 30, 30});     // compact, but too little light
-    for (Environment* e : {&even, &dark, &cloud, &lamp, &street}) {
+    Environment even = skyWith(128, 1), dark = skyWith(128, 0), cloud = skyWith(256, 0.2f), lamp = skyWith(128, 0.1f);
+    Environment street = skyWith(256, 1), tube = skyWith(512, 1);
+    addDisc(cloud, up, 0.4f, {1, 1, 1});
+    addDisc(cloud, up, 0.04f, {18.5f, 18.5f, 18.5f});  // compact, much of the light, but no sun
+    addDisc(lamp, up, 0.12f, {3000, 3000, 3000});      // as bright as one, but 7 degrees wide
+    addDisc(street, up, 0.008f, {30, 30, 30});         // compact, but too little light
+    addTube(tube, up, 1000);                           // bright and thin, but long
+    for (Environment* e : {&even, &dark, &cloud, &lamp, &street, &tube}) {
         const std::vector<float> before = e->radiance.pixels;
         EXPECT_FALSE(extractSun(*e).has_value());
         EXPECT_EQ(before, e->radiance.pixels);
