@@ -19,7 +19,7 @@ namespace glsl {
 namespace {
 
 constexpr int kLargestSize = 256;     // texels a side of level 0
-constexpr int kSmallestSize = 8;      // and of the last level
+constexpr int kSmallestSize = 16;     // and of the last level; with 8 the facets of bilinear look-ups show on rough metal
 constexpr int kSampleCount = 32;      // at the first filtered level; doubled from level to level
 
 // A square of radiance with texel centres inside (unlike PrefilteredLevel): what samples are read from.

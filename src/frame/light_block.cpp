@@ -111,7 +111,8 @@ LightBlock makeLightBlock(const Context& context, const LightingParams& params, 
     block.background = with(params.backgroundColor, float(background));
     const float texelAngle = 2 * kPi / float(environment.sharpWidth);
     block.backgroundLevel = {params.backgroundBlur > 0 ? params.backgroundBlur * float(environment.prefilteredLevels - 1) : -1.0f,
-                             std::clamp(std::log2(angleOfPixel / texelAngle), 0.0f, float(environment.sharpLevels - 1)), 0, 0};
+                             std::clamp(std::log2(angleOfPixel / texelAngle), 0.0f, float(environment.sharpLevels - 1)),
+                             angleOfPixel / texelAngle, 0};
     block.occlusion = {params.ambientOcclusion ? 1.0f : 0.0f, params.occlusionStrength, 0, 0};
     block.lightCount = {float(lights.punctual.size()), 0, 0, 0};
     return block;

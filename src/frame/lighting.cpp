@@ -16,6 +16,9 @@ namespace {
 
 constexpr std::size_t kFirstLights = 64;   // room made at creation; more lights grow it
 
+// With fewer texels of the environment a pixel than this the background is interpolated smoothly.
+constexpr float kTexelsPerPixelOfSmooth = 0.75f;
+
 // What shade.frag is compiled for.
 enum Variant { kNoSun = 1, kNoLocalLights = 2, kSunIrradiance = 4, kTerms = 8 };
 constexpr int kShadeVariants = 16;
@@ -45,7 +48,7 @@ struct Lighting::State {
     gl::Device& device;
     Fullscreen fullscreen;
     const gl::Program* shade[kShadeVariants] = {};   // by a sum of Variant; rare ones are built when first asked for
-    const gl::Program *background = nullptr, *plainBackground = nullptr;
+    const gl::Program *background = nullptr, *smoothBackground = nullptr, *plainBackground = nullptr;
     AmbientOcclusion occlusion;
     EnvironmentMap environment;
     gl::BlockBuffer<LightBlock> block;
@@ -53,7 +56,7 @@ struct Lighting::State {
     std::vector<LocalLight> localScratch;
     gl::Texture open;                         // 1 x 1, for forward passes without occlusion
     bool occlusionOn = false;
-    bool plain = false;
+    const gl::Program* behind = nullptr;      // the background's program, chosen by prepare()
     int variant = 0;                          // of what prepare() was given
 
     bool termsWanted = false;
@@ -73,6 +76,7 @@ Result<void> Lighting::State::makePrograms() {
         SHOAL_TRY_ASSIGN(shade[v], shadeProgram(device, v));
     }
     SHOAL_TRY_ASSIGN(background, fullscreenProgram(device, "frame/background.frag"));
+    SHOAL_TRY_ASSIGN(smoothBackground, fullscreenProgram(device, "frame/background.frag", {{"SMOOTH", "1"}}));
     SHOAL_TRY_ASSIGN(plainBackground, fullscreenProgram(device, "frame/background.frag", {{"COLOR", "1"}}));
     return {};
 }
@@ -147,9 +151,11 @@ Result<void> Lighting::setEnvironment(const light::Environment& environment) {
 void Lighting::prepare(const Context& context, const LightingParams& params, const Lights& lights, const Targets& targets) {
     State& s = *state_;
     s.occlusionOn = params.ambientOcclusion;
-    s.plain = params.background != "environment";
     s.variant = (lights.sun ? 0 : kNoSun) | (lights.punctual.empty() ? kNoLocalLights : 0);
-    s.block.write(makeLightBlock(context, params, lights, s.environment.shape));
+    const LightBlock block = makeLightBlock(context, params, lights, s.environment.shape);
+    s.block.write(block);
+    const bool magnified = block.backgroundLevel.z < kTexelsPerPixelOfSmooth;
+    s.behind = params.background != "environment" ? s.plainBackground : magnified ? s.smoothBackground : s.background;
     makeLocalLights(lights.punctual, s.localScratch);
     const std::size_t bytes = s.localScratch.size() * sizeof(LocalLight);
     if (bytes > s.localLights.bytes()) s.localLights = gl::Buffer::create(s.device, bytes * 2, "local lights");
@@ -167,6 +173,7 @@ void Lighting::prepare(const Context& context, const LightingParams& params, con
 void Lighting::shade(const Context& context, const LightingParams&, const Shadows& shadows, const LightOverrides& overrides,
                      const Targets& targets) {
     State& s = *state_;
+    SHOAL_ASSERT_MSG(s.behind, "prepare() comes before shade()");
     s.bindLight();
     shadows.bind();
     const GBuffer& g = targets.gbuffer();
@@ -196,7 +203,7 @@ void Lighting::shade(const Context& context, const LightingParams&, const Shadow
     }
     const gl::PassScope pass(context.timer, "background");
     targets.forward().bind();
-    s.fullscreen.draw(s.plain ? *s.plainBackground : *s.background, Where::background);
+    s.fullscreen.draw(*s.behind, Where::background);
 }
 
 void Lighting::bind() const { state_->bindLight(); }

@@ -1,6 +1,6 @@
 #version 450 core
 // What is behind everything: the environment (sharp or blurred) with the sun's disc, or a plain colour. Drawn with fullscreen.vert and
-// depth test EQUAL. Variant: COLOR.
+// depth test EQUAL. Variants: COLOR; SMOOTH for a map whose texels are larger than pixels.
 #include "frame/brdf.lib.glsl"
 #include "frame/lighting.io.glsl"
 
@@ -11,7 +11,19 @@ const float kTurn = 6.28318530718;
 #ifndef COLOR
 vec3 sharpRadiance(vec3 d) {
     vec2 latLong = vec2(0.5 + atan(d.x, -d.z) / kTurn + lightBlock.environment.w, acos(clamp(d.y, -1.0, 1.0)) / (0.5 * kTurn));
+#ifdef SMOOTH
+    // Cubic B-spline by 4 bilinear fetches [Sigg & Hadwiger 2005]: bilinear alone draws stairs along bright edges.
+    vec2 size = vec2(textureSize(sharpEnvironment, 0));
+    vec2 at = latLong * size - 0.5, corner = floor(at), f = at - corner, g = 1.0 - f;
+    vec2 w0 = g * g * g / 6.0, w1 = 2.0 / 3.0 - 0.5 * f * f * (2.0 - f), w3 = f * f * f / 6.0, w2 = 1.0 - w0 - w1 - w3;
+    vec2 low = (corner - 0.5 + w1 / (w0 + w1)) / size, high = (corner + 1.5 + w3 / (w2 + w3)) / size;
+    vec2 low01 = w0 + w1;
+    vec3 below = mix(textureLod(sharpEnvironment, vec2(high.x, low.y), 0.0).rgb, textureLod(sharpEnvironment, low, 0.0).rgb, low01.x);
+    vec3 above = mix(textureLod(sharpEnvironment, high, 0.0).rgb, textureLod(sharpEnvironment, vec2(low.x, high.y), 0.0).rgb, low01.x);
+    return mix(above, below, low01.y);
+#else
     return textureLod(sharpEnvironment, latLong, lightBlock.backgroundLevel.y).rgb;
+#endif
 }
 
 vec3 blurredRadiance(vec3 d, float level) {

@@ -27,7 +27,8 @@ SHOAL_LIGHT_BLOCK_BEGIN {
     vec4 irradiance[9];
     vec4 environment;        // x: intensity, y: levels of the prefiltered map, z: its texels a side at level 0, w: turn of the sharp map, turns
     vec4 background;         // rgb W/(m2 sr) of a plain background; w: SHOAL_BACKGROUND_...
-    vec4 backgroundLevel;    // x: level of the prefiltered map for a blurred background, negative: sharp; y: mip level of the sharp map
+    vec4 backgroundLevel;    // x: level of the prefiltered map for a blurred background, negative: sharp; y: mip level of the
+                             // sharp map, z: its texels a pixel
     vec4 occlusion;          // x: 1 where there is screen-space occlusion, y: strength, zw: unused
     // World position of a pixel (gl_FragCoord.xy = p) at view depth z: origin + p.x originX + p.y originY + z (ray + p.x rayX + p.y rayY).
     // Perspective eyes have one origin, orthographic eyes one ray.
