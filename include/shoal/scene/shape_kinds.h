@@ -32,7 +32,7 @@ void visit(P& p, V&& v) {
                        -1e30,
                        1e30,
                        "what it is made of",
-                       {"plain", "wood", "stone", "concrete", "sand", "grit", "tiles"}});
+                       {"plain", "wood", "stone", "concrete", "sand", "grit", "tiles", "roof", "ripples"}});
     v(p.color, Field{"color", "", 0, 1, "linear base colour; tints a textured surface"});
     v(p.roughness, Field{"roughness", "", 0, 1, "of a plain surface: 0 mirror, 1 matt"});
     v(p.metallic, Field{"metallic", "", 0, 1, "of a plain surface: 1 is metal"});
@@ -103,7 +103,7 @@ struct TerrainShape {
     float size = 120, height = 14, roughness = 0.5f;
     bool island = true;
     float seaDepth = 6, grassLine = 1.6f;
-    int cells = 256, rocks = 60, bushes = 160;
+    int cells = 256, rocks = 60, bushes = 160, trees = 0;
     std::uint32_t seed = 1;
 };
 template <class P, class V>
@@ -119,6 +119,7 @@ void visit(P& p, V&& v) {
     v(p.cells, Field{"cells", "", 8, 1024, "grid cells along a side"});
     v(p.rocks, Field{"rocks", "", 0, 2000, "boulders scattered on it"});
     v(p.bushes, Field{"bushes", "", 0, 5000, "shrubs on the grass"});
+    v(p.trees, Field{"trees", "", 0, 5000, "trees in groves on the grass"});
     v(p.seed, Field{"seed", "", 0, 4294967295.0, "another land"});
 }
 Result<Model> makeTerrain(const TerrainShape& shape);
@@ -232,6 +233,26 @@ void visit(P& p, V&& v) {
     v(p.seed, Field{"seed", "", 0, 4294967295.0, "other goods"});
 }
 Result<Model> makeHall(const HallShape& shape);
+
+// A row of plastered town houses along x: the fronts face +z at z = 0, the houses reach to z = -depth.
+struct HousesShape {
+    float length = 40, depth = 9, houseWidth = 8;
+    int floors = 3;
+    bool shops = true, tower = false;
+    std::uint32_t seed = 1;
+};
+template <class P, class V>
+requires std::is_same_v<std::remove_const_t<P>, HousesShape>
+void visit(P& p, V&& v) {
+    v(p.length, Field{"length", "m", 3, 1000, "of the row, along x"});
+    v(p.depth, Field{"depth", "m", 3, 50, "of the houses, towards -z"});
+    v(p.houseWidth, Field{"houseWidth", "m", 3, 50, "of a house, about"});
+    v(p.floors, Field{"floors", "", 1, 8, "of the highest houses"});
+    v(p.shops, Field{"shops", "", 0, 1, "shops with awnings on ground floors"});
+    v(p.tower, Field{"tower", "", 0, 1, "a bell tower behind the row"});
+    v(p.seed, Field{"seed", "", 0, 4294967295.0, "other houses"});
+}
+Result<Model> makeHouses(const HousesShape& shape);
 
 // A paved square with low walls, benches, lamps and trees in planters, and something in its middle.
 struct PlazaShape {

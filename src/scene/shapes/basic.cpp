@@ -22,6 +22,10 @@ int addLook(ModelBuilder& builder, const ShapeSurface& look) {
         index = builder.addMaterial("grit", look.color, makeGrit(1));
     else if (look.surface == "tiles")
         index = builder.addMaterial("tiles", look.color, makeTiles(1, 0.2f, 8));
+    else if (look.surface == "roof")
+        index = builder.addMaterial("roof", look.color, makeRoofTiles(1));
+    else if (look.surface == "ripples")
+        index = builder.addMaterial("ripples", look.color, makeRipples(1));
     else
         index = builder.addMaterial("plain", look.color, look.roughness, look.metallic);
     Material& material = builder.material(index);

@@ -29,7 +29,7 @@ const std::map<std::string, Kind, std::less<>>& kinds() {
         {"terrain", kindOf<TerrainShape, makeTerrain>()}, {"rocks", kindOf<RocksShape, makeRocks>()},
         {"tank", kindOf<TankShape, makeTank>()},          {"pier", kindOf<PierShape, makePier>()},
         {"quay", kindOf<QuayShape, makeQuay>()},          {"hall", kindOf<HallShape, makeHall>()},
-        {"plaza", kindOf<PlazaShape, makePlaza>()},
+        {"plaza", kindOf<PlazaShape, makePlaza>()},       {"houses", kindOf<HousesShape, makeHouses>()},
     };
     return all;
 }

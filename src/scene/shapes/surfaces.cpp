@@ -172,6 +172,57 @@ Surface makeGrit(std::uint32_t seed) {
     });
 }
 
+Surface makePlaster(std::uint32_t seed) {
+    return makeSurface(512, 4.0f, [&](float u, float v) {
+        const float cloud = fractal(u * 3, v * 3, 4, seed, 3, 3), grain = noise(u * 150, v * 150, seed + 9, 150, 150);
+        // Streaks that rain leaves, long in v.
+        const float streak = smoothstep(0.15f, 0.8f, fractal(u * 22, v * 2, 3, seed + 41, 22, 2));
+        const float trowel = fractal(u * 14, v * 14, 3, seed + 31, 14, 14);
+        Texel t;
+        t.albedo = Vec3{1.0f, 0.99f, 0.97f} * (0.78f + 0.11f * cloud + 0.04f * grain - 0.10f * streak);
+        t.height = 0.003f * trowel + 0.0009f * grain;
+        t.roughness = 0.93f;
+        return t;
+    });
+}
+
+Surface makeRoofTiles(std::uint32_t seed) {
+    constexpr float kMetres = 2.4f;
+    constexpr int kColumns = 12, kRows = 8;
+    return makeSurface(512, kMetres, [&](float u, float v) {
+        const float row = v * kRows, column = u * kColumns;
+        const float down = row - std::floor(row), across = 2 * (column - std::floor(column)) - 1;
+        const std::uint32_t id = latticeHash(std::uint32_t(column), std::uint32_t(row), seed);
+        const float arch = std::sqrt(std::max(0.0f, 1 - across * across));
+        const float lichen = fractal(u * 4, v * 4, 4, seed + 3, 4, 4),
+                    grain = noise(u * 120, v * 120, seed + 5, 120, 120);
+        const float edge = smoothstep(0.0f, 0.12f, down) * (0.45f + 0.55f * smoothstep(0.0f, 0.5f, arch));
+        const Vec3 clay = lerp(Vec3{0.42f, 0.16f, 0.075f}, Vec3{0.50f, 0.27f, 0.15f}, unitOf(id)) *
+                          (0.75f + 0.4f * unitOf(latticeHash(id, 1, seed)) + 0.06f * grain);
+        Texel t;
+        t.albedo = lerp(clay, Vec3{0.27f, 0.25f, 0.19f}, 0.75f * smoothstep(0.1f, 0.75f, lichen)) * edge;
+        t.height = 0.045f * arch + 0.02f * down + 0.001f * grain;
+        t.roughness = 0.85f;
+        return t;
+    });
+}
+
+Surface makeRipples(std::uint32_t seed) {
+    return makeSurface(512, 20.0f, [&](float u, float v) {
+        const float bend = 0.5f * noise(u * 5, v * 5, seed + 7, 5, 5);
+        const float swell = noise(u * 5 + 0.3f * bend, v * 9, seed, 5, 9);
+        const float chop = noise(u * 14 + bend, v * 22, seed + 1, 14, 22),
+                    fine = fractal(u * 40, v * 52, 2, seed + 2, 40, 52);
+        // Gusts leave some patches smoother.
+        const float calm = 0.55f + 0.45f * smoothstep(-0.4f, 0.5f, fractal(u * 3, v * 3, 2, seed + 4, 3, 3));
+        Texel t;
+        t.albedo = {1, 1, 1};
+        t.height = 0.045f * swell + calm * (0.03f * (1 - 2 * std::abs(chop)) + 0.008f * fine);
+        t.roughness = 0.07f;
+        return t;
+    });
+}
+
 Surface makeTiles(std::uint32_t seed, float tileSize, int count) {
     const int size = count >= 6 ? 512 : 256;
     const float joint = std::clamp(0.004f / tileSize, 0.02f, 0.06f);  // half its width, in tiles

@@ -19,8 +19,11 @@ Surface makeWood(std::uint32_t seed);   // grain along u
 Surface makeStone(std::uint32_t seed);  // hewn, pitted, light; the tint comes from vertex colours
 Surface makeRock(std::uint32_t seed);   // grown: cracks and lichen
 Surface makeConcrete(std::uint32_t seed);
-Surface makeSand(std::uint32_t seed);  // with ripples
-Surface makeGrit(std::uint32_t seed);  // pebbly ground: grass, soil and rock from afar
+Surface makeSand(std::uint32_t seed);       // with ripples
+Surface makeGrit(std::uint32_t seed);       // pebbly ground: grass, soil and rock from afar
+Surface makePlaster(std::uint32_t seed);    // rendered walls, light; the tint comes from vertex colours
+Surface makeRoofTiles(std::uint32_t seed);  // rows of fired clay, u along the eaves, v down the slope
+Surface makeRipples(std::uint32_t seed);    // small waves of calm water
 // Glazed tiles with joints, `count` a side; tileSize in metres.
 Surface makeTiles(std::uint32_t seed, float tileSize, int count);
 

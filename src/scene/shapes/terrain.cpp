@@ -126,7 +126,7 @@ private:
     std::vector<std::size_t> made_;
 };
 
-constexpr int kBoulderKinds = 6, kBushKinds = 3;
+constexpr int kBoulderKinds = 6, kBushKinds = 3, kTreeKinds = 4;
 
 void scatterRocks(ModelBuilder& builder, const TerrainShape& shape, const Ground& ground, int stone,
                   std::size_t& nodeCount) {
@@ -143,6 +143,12 @@ void scatterRocks(ModelBuilder& builder, const TerrainShape& shape, const Ground
     }
 }
 
+// Where grass grows and the ground is not steep; groves follow a noise of their own.
+bool isFertile(const TerrainShape& shape, const Ground& ground, float x, float z, float grove) {
+    const bool grows = !shape.island || ground.height(x, z) > shape.grassLine + 0.5f;
+    return grows && ground.normal(x, z, 0.5f).y > 0.82f && noise(x * 0.09f, z * 0.09f, shape.seed + 300) > grove;
+}
+
 void scatterBushes(ModelBuilder& builder, const TerrainShape& shape, const Ground& ground, int leaf,
                    std::size_t& nodeCount) {
     Dice dice(shape.seed * 37 + 11);
@@ -150,18 +156,34 @@ void scatterBushes(ModelBuilder& builder, const TerrainShape& shape, const Groun
     int placed = 0;
     for (int attempt = 0; attempt < shape.bushes * 8 && placed < shape.bushes; ++attempt) {
         const float x = dice.range(-0.48f, 0.48f) * shape.size, z = dice.range(-0.48f, 0.48f) * shape.size;
-        const float h = ground.height(x, z), scale = dice.range(0.45f, 1.3f);
+        const float scale = dice.range(0.45f, 1.3f);
         const Quat turn = uprightTurn(dice, 0.1f);
-        const bool grows = !shape.island || h > shape.grassLine + 0.5f;
-        if (!grows || ground.normal(x, z, 0.5f).y < 0.82f || noise(x * 0.09f, z * 0.09f, shape.seed + 300) < -0.1f)
-            continue;
+        if (!isFertile(shape, ground, x, z, -0.1f)) continue;
         const std::uint32_t kind = std::uint32_t(placed++ % kBushKinds);
-        scatter.place(kind, {x, h, z}, turn, scale, [&] {
+        scatter.place(kind, {x, ground.height(x, z), z}, turn, scale, [&] {
             Dice shapeDice(shape.seed * 41 + kind);
             Part& leaves = builder.part(leaf);
             for (int clump = 0; clump < 3; ++clump)
                 addFoliage(leaves, {shapeDice.range(-0.35f, 0.35f), 0.35f, shapeDice.range(-0.35f, 0.35f)},
                            {0.5f, 0.45f, 0.5f}, 110, 0.1f, shapeDice);
+        });
+    }
+}
+
+void scatterTrees(ModelBuilder& builder, const TerrainShape& shape, const Ground& ground, const Palette& palette,
+                  std::size_t& nodeCount) {
+    Dice dice(shape.seed * 47 + 5);
+    Scatter scatter(builder, "tree", nodeCount);
+    int placed = 0;
+    for (int attempt = 0; attempt < shape.trees * 12 && placed < shape.trees; ++attempt) {
+        const float x = dice.range(-0.48f, 0.48f) * shape.size, z = dice.range(-0.48f, 0.48f) * shape.size;
+        const float scale = dice.range(0.7f, 1.35f);
+        const Quat turn = uprightTurn(dice, 0.08f);
+        if (!isFertile(shape, ground, x, z, 0.08f)) continue;
+        const std::uint32_t kind = std::uint32_t(placed++ % kTreeKinds);
+        scatter.place(kind, {x, ground.height(x, z), z}, turn, scale, [&] {
+            Dice shapeDice(shape.seed * 67 + kind);
+            addTree(builder, palette, {}, shapeDice.range(3.6f, 4.6f), shapeDice);
         });
     }
 }
@@ -179,10 +201,13 @@ Result<Model> makeTerrain(const TerrainShape& shape) {
     if (shape.rocks > 0)
         scatterRocks(builder, shape, ground, builder.addMaterial("rock", {0.75f, 0.72f, 0.68f}, makeRock(shape.seed)),
                      nodeCount);
-    if (shape.bushes > 0) {
-        const int leaf = builder.addMaterial("leaves", {0.10f, 0.15f, 0.045f}, 0.7f);
-        builder.material(leaf).doubleSided = true;
-        scatterBushes(builder, shape, ground, leaf, nodeCount);
+    if (shape.bushes > 0 || shape.trees > 0) {
+        Palette palette;
+        palette.leaf = builder.addMaterial("leaves", {0.10f, 0.15f, 0.045f}, 0.7f);
+        builder.material(palette.leaf).doubleSided = true;
+        scatterBushes(builder, shape, ground, palette.leaf, nodeCount);
+        if (shape.trees > 0) palette.bark = builder.addMaterial("bark", {0.16f, 0.12f, 0.085f}, 0.9f);
+        scatterTrees(builder, shape, ground, palette, nodeCount);
     }
     return builder.finish();
 }
