@@ -2,7 +2,8 @@
 
 #include <epoxy/gl.h>
 
-#include <cstring>
+#include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "frame/bindings.shared.h"
@@ -112,7 +113,10 @@ void prepareSun(State& s, const Context& context, const ShadowParams& params, co
         const CascadeFitSetup setup{s.setup.sunResolution, s.setup.cascadeCount, sunDistance(context, params, bounds),
                                      params.splitBlend};
         const CascadeFit fit = fitCascades(context.view, sun->toSun, bounds, setup);
-        float ends[kMaxCascades] = {}, fades[kMaxCascades] = {};
+        constexpr float kNever = 1e30f;   // view depth of cascades that there are not
+        float ends[kMaxCascades], fades[kMaxCascades];
+        std::fill_n(ends, kMaxCascades, kNever);
+        std::fill_n(fades, kMaxCascades, kNever);
         for (; used < fit.count; ++used) {
             const Cascade& c = fit.cascades[used];
             const float scale = 0.5f / c.halfExtent;

@@ -10,23 +10,31 @@ layout(binding = SHOAL_UNIT_SUN_SHADOW_CMP) uniform sampler2DArrayShadow sunShad
 layout(binding = SHOAL_UNIT_SPOT_SHADOW) uniform sampler2DArrayShadow spotShadowTest;
 
 const float kTentRadius = 1.5;        // texels that the smallest filter reaches
+const float kMiddleRadius = 4.0;      // texels up to which the lower counts below do
 const float kLargestRadius = 10.0;    // texels that the largest filter reaches
-const int kSearchCount = 6;           // gathers of four texels each
-const int kFilterCount = 16;
+const int kSearchCount = 6, kShortSearchCount = 4;     // gathers of four texels each
+const int kTentCount = 4, kShortFilterCount = 9, kFilterCount = 16;    // bilinear comparisons
 
-// 3 x 3 tent by four bilinear comparisons. uv, slope (depth per uv), reference depth at uv.
-float tentVisibility(sampler2DArrayShadow map, vec2 uv, float layer, float depth, vec2 slope, float texels, float texel) {
+// llvmpipe runs both sides of an `if` and skips nothing but further rounds of a loop, so what can be spared is a loop whose length
+// depends on the pixel.
+
+// The next direction of discPoint: turned by the golden angle.
+vec2 turned(vec2 d) { return vec2(-0.7373688 * d.x - 0.6754903 * d.y, 0.6754903 * d.x - 0.7373688 * d.y); }
+
+// Tap i of the 3 x 3 tent by four bilinear comparisons: offset from the map's corner in texels (xy), weight (z, sum 16).
+vec3 tentTap(int i, vec4 x, vec4 y) {
+    bool right = (i & 1) != 0, up = (i & 2) != 0;
+    return vec3(right ? x.y : x.x, up ? y.y : y.x, (right ? x.w : x.z) * (up ? y.w : y.z));
+}
+
+float tentVisibility(sampler2DArrayShadow map, vec2 uv, float layer, float depth, float texels, float texel) {
     vec2 position = uv * texels + 0.5;
     vec2 corner = floor(position);
-    vec2 f = position - corner;
-    vec4 x = tentAxis(f.x), y = tentAxis(f.y);
-    vec2 base = (corner - 0.5) * texel;
+    vec4 x = tentAxis(position.x - corner.x), y = tentAxis(position.y - corner.y);
     float sum = 0.0;
-    for (int i = 0; i < 4; ++i) {
-        bool right = (i & 1) != 0, up = (i & 2) != 0;
-        vec2 at = base + vec2(right ? x.y : x.x, up ? y.y : y.x) * texel;
-        float weight = (right ? x.w : x.z) * (up ? y.w : y.z);
-        sum += weight * texture(map, vec4(at, layer, depth + dot(slope, at - uv)));
+    for (int i = 0; i < kTentCount; ++i) {
+        vec3 tap = tentTap(i, x, y);
+        sum += tap.z * texture(map, vec4((corner - 0.5 + tap.xy) * texel, layer, depth));
     }
     return sum * (1.0 / 16.0);
 }
@@ -41,54 +49,61 @@ float cascadeVisibility(int cascade, vec3 sunPosition, vec3 sunNormal) {
     vec3 receiver = sunPosition + sunNormal * vec3(1, 1, depthPerMetre) * (shadowBlock.sunShape.z * metresPerTexel);
     vec2 uv = receiver.xy * place.x + place.yz;
     vec2 slope = receiverSlope(sunNormal) * (depthPerMetre * metresPerTexel * texels);   // depth per uv
+    float radiusPerDepth = shadowBlock.sunShape.x * shadowBlock.sunShape.y / metresPerTexel;   // texels of penumbra
 
-    float texelsPerMetre = 1.0 / metresPerTexel;
-    float widest = (1.0 - receiver.z) * shadowBlock.sunShape.x * shadowBlock.sunShape.y * texelsPerMetre;
-    if (widest <= kTentRadius) return tentVisibility(sunShadowTest, uv, layer, receiver.z, slope, texels, texel);
-
-    // What blocks the disc of the sun, and how far away it is on average.
+    // What blocks the disc of the sun, and how far away it is on average. A disc smaller than the tent need not be searched.
+    float widest = (1.0 - receiver.z) * radiusPerDepth;
+    int searchCount = widest <= kTentRadius ? 0 : widest <= kMiddleRadius ? kShortSearchCount : kSearchCount;
     float searchRadius = min(widest, kLargestRadius) * texel;
-    float blockerSum = 0.0, blockerCount = 0.0;
-    for (int i = 0; i < kSearchCount; ++i) {
-        vec2 offset = discPoint(i, kSearchCount) * searchRadius;
+    vec2 found = vec2(0.0);   // sum of depths, texels
+    vec2 direction = vec2(1, 0);
+    for (int i = 0; i < searchCount; ++i) {
+        vec2 offset = direction * (searchRadius * sqrt((float(i) + 0.5) / float(searchCount)));
         vec4 depths = textureGather(sunShadowDepth, vec3(uv + offset, layer));
         vec4 blocks = vec4(greaterThan(depths, vec4(receiver.z + dot(slope, offset))));
-        blockerSum += dot(blocks, depths);
-        blockerCount += dot(blocks, vec4(1.0));
+        found += vec2(dot(blocks, depths), dot(blocks, vec4(1.0)));
+        direction = turned(direction);
     }
-    if (blockerCount == 0.0) return 1.0;
-    if (blockerCount == 4.0 * float(kSearchCount)) return 0.0;
-    float distanceToBlocker = (blockerSum / blockerCount - receiver.z) * shadowBlock.sunShape.x;
-    float radius = min(distanceToBlocker * shadowBlock.sunShape.y * texelsPerMetre, kLargestRadius);
-    if (radius <= kTentRadius) return tentVisibility(sunShadowTest, uv, layer, receiver.z, slope, texels, texel);
+    bool searched = searchCount > 0;
+    bool mixed = !searched || (found.y > 0.0 && found.y < 4.0 * float(searchCount));
 
-    float sum = 0.0;
-    for (int i = 0; i < kFilterCount; ++i) {
-        vec2 offset = discPoint(i, kFilterCount) * (radius * texel);
-        sum += texture(sunShadowTest, vec4(uv + offset, layer, receiver.z + dot(slope, offset)));
+    float radius = searched ? min((found.x / max(found.y, 1.0) - receiver.z) * radiusPerDepth, kLargestRadius) : 0.0;
+    bool tent = radius <= kTentRadius;
+    int tapCount = !mixed ? 0 : tent ? kTentCount : radius <= kMiddleRadius ? kShortFilterCount : kFilterCount;
+    vec2 position = uv * texels + 0.5;
+    vec2 corner = floor(position);
+    vec4 x = tentAxis(position.x - corner.x), y = tentAxis(position.y - corner.y);
+    direction = vec2(1, 0);
+    vec2 sum = vec2(0.0);   // weighted, weights
+    for (int i = 0; i < tapCount; ++i) {
+        vec3 tap = tentTap(i, x, y);
+        vec2 offset = tent ? (corner - 0.5 + tap.xy) * texel - uv
+                           : direction * (radius * texel * sqrt((float(i) + 0.5) / float(tapCount)));
+        float weight = tent ? tap.z : 1.0;
+        sum += vec2(weight * texture(sunShadowTest, vec4(uv + offset, layer, receiver.z + dot(slope, offset))), weight);
+        direction = turned(direction);
     }
-    return sum / float(kFilterCount);
+    return mixed ? sum.x / sum.y : found.y > 0.0 ? 0.0 : 1.0;
 }
 
-// Visible fraction of the sun's disc. worldNormal unit; viewDepth in metres chooses the cascade; pixel is not used: a pattern that
+// Visible fraction of the sun's disc, 0 on surfaces that face away. worldNormal unit; viewDepth in metres chooses the cascade; pixel is not used: a pattern that
 // followed the screen would crawl over moving surfaces.
 float sunVisibility(vec3 worldPos, vec3 worldNormal, float viewDepth, vec2 pixel) {
     int count = int(shadowBlock.sunShape.w);
-    if (count == 0 || viewDepth >= shadowBlock.cascadeEnd[count - 1]) return 1.0;
-    int cascade = 0;
-    while (cascade < count - 1 && viewDepth >= shadowBlock.cascadeEnd[cascade]) ++cascade;
-
+    int cascade = int(dot(vec4(greaterThanEqual(vec4(viewDepth), shadowBlock.cascadeEnd)), vec4(1.0)));   // unused ends are far away
     vec3 sunNormal = mat3(shadowBlock.sunFromWorld) * worldNormal;
     sunNormal.z *= shadowBlock.sunShape.x;   // the matrix measures depth in [0, 1]
     vec3 sunPosition = (shadowBlock.sunFromWorld * vec4(worldPos, 1.0)).xyz;
-    float visibility = cascadeVisibility(cascade, sunPosition, sunNormal);
-    float fadeStart = shadowBlock.cascadeFade[cascade];
-    if (viewDepth > fadeStart) {
-        float fade = (viewDepth - fadeStart) / (shadowBlock.cascadeEnd[cascade] - fadeStart);
-        float next = cascade + 1 < count ? cascadeVisibility(cascade + 1, sunPosition, sunNormal) : 1.0;
-        visibility = mix(visibility, next, fade);
-    }
-    return visibility;
+
+    int inMap = min(cascade, SHOAL_MAX_CASCADES - 1);
+    float fadeStart = shadowBlock.cascadeFade[inMap];
+    float fade = clamp((viewDepth - fadeStart) / (shadowBlock.cascadeEnd[inMap] - fadeStart), 0.0, 1.0);
+    bool facing = sunNormal.z > 0.0;
+    int end = !facing ? cascade : min(fade > 0.0 ? cascade + 2 : cascade + 1, count);
+    float shadow = 0.0;   // beyond the last cascade is light
+    for (int c = cascade; c < end; ++c)
+        shadow += (c == cascade ? 1.0 - fade : fade) * (1.0 - cascadeVisibility(c, sunPosition, sunNormal));
+    return facing ? 1.0 - shadow : 0.0;
 }
 
 // Visible fraction of a spot with a shadow; 1 for an index without one.
@@ -101,7 +116,7 @@ float spotVisibility(int shadowIndex, vec3 worldPos, vec3 worldNormal) {
     if (clip.w <= 0.0) return 1.0;
     vec3 ndc = clip.xyz / clip.w;
     float texel = shadowBlock.spotShape.y;
-    return tentVisibility(spotShadowTest, ndc.xy * 0.5 + 0.5, float(shadowIndex), ndc.z, vec2(0.0), 1.0 / texel, texel);
+    return tentVisibility(spotShadowTest, ndc.xy * 0.5 + 0.5, float(shadowIndex), ndc.z, 1.0 / texel, texel);
 }
 
 #endif

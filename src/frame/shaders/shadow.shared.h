@@ -21,7 +21,7 @@ SHOAL_SHADOW_BLOCK_BEGIN {
     // All cascades look along the sun and share their depth: lateral xy in metres, z in [0, 1], 1 nearest to the sun.
     mat4 sunFromWorld;
     vec4 cascadePlace[SHOAL_MAX_CASCADES];   // uv = sun.xy * x + yz; w: metres a texel
-    vec4 cascadeEnd;      // view depth in metres where each cascade ends
+    vec4 cascadeEnd;      // view depth in metres where each cascade ends; 1e30 for those not used
     vec4 cascadeFade;     // view depth where it begins to turn into the next one
     vec4 sunShape;        // x: metres of depth from 0 to 1, y: penumbra half width per metre of distance to the blocker,
                           // z: normal bias in texels, w: cascade count, 0 for a sun without shadow
