@@ -40,9 +40,8 @@ Result<void> AmbientOcclusion::resize(int width, int height, gl::TextureView dep
     blurred_ = makeTarget(device, GL_RG32F, (width + 1) / 2, (height + 1) / 2, "occlusion, blurred");
     full_ = makeTarget(device, GL_R8, width, height, "occlusion");
     if (!raw_ || !blurred_ || !full_) return internalError("no memory for ambient occlusion");
-    const float open[4] = {1, 1, 1, 1};
-    full_.clear(GL_RED, GL_FLOAT, open);
-    const gl::Framebuffer::Attachment raw[] = {{raw_.view()}}, blurred[] = {{blurred_.view()}}, full[] = {{full_.view()}};
+    const gl::Framebuffer::Attachment raw[] = {{raw_.view()}}, blurred[] = {{blurred_.view()}},
+                                      full[] = {{full_.view()}};
     SHOAL_TRY_ASSIGN(toRaw_, gl::Framebuffer::create(device, raw, {}, "occlusion, raw"));
     SHOAL_TRY_ASSIGN(toBlurred_, gl::Framebuffer::create(device, blurred, {}, "occlusion, blurred"));
     SHOAL_TRY_ASSIGN(toFull_, gl::Framebuffer::create(device, full, {depth}, "occlusion"));
@@ -50,7 +49,15 @@ Result<void> AmbientOcclusion::resize(int width, int height, gl::TextureView dep
     return {};
 }
 
-void AmbientOcclusion::compute(const Context& context, const LightingParams& params, const GBuffer& gbuffer, const Fullscreen& fullscreen) {
+void AmbientOcclusion::clear() {
+    const float open[4] = {1, 1, 1, 1};
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glDisable(GL_SCISSOR_TEST);
+    glClearNamedFramebufferfv(toFull_.name(), GL_COLOR, 0, open);
+}
+
+void AmbientOcclusion::compute(const Context& context, const LightingParams& params, const GBuffer& gbuffer,
+                               const Fullscreen& fullscreen) {
     const light::View& view = context.view;
     const Mat4 clipFromView = light::jittered(view, context.jitterPx.x, context.jitterPx.y);
     const float width = float(gbuffer.width), height = float(gbuffer.height);
@@ -62,7 +69,8 @@ void AmbientOcclusion::compute(const Context& context, const LightingParams& par
     };
     const Vec2 x = axis(0, width), y = axis(1, height);
     const float radius = params.occlusionRadius;
-    const float turn = std::fmod(float(context.sampleIndex) * 0.61803399f, 1.0f);   // golden ratio: even over any number of samples
+    const float turn =
+        std::fmod(float(context.sampleIndex) * 0.61803399f, 1.0f);  // golden ratio: even over any number of samples
 
     gl::bindTexture(SHOAL_UNIT_PASS + 1, gbuffer.normal);
     gl::bindTexture(SHOAL_UNIT_PASS + 4, gbuffer.viewDepth);
@@ -85,9 +93,8 @@ void AmbientOcclusion::compute(const Context& context, const LightingParams& par
     const gl::PassScope pass(context.timer, "occlusion upsample");
     gl::bindTexture(SHOAL_UNIT_PASS, blurred_);
     upsample_->set(0, Vec4{kDepthTolerance, params.occlusionStrength, 0, 0});
+    clear();
     toFull_.bind();
-    const float open[4] = {1, 1, 1, 1};
-    glClearNamedFramebufferfv(toFull_.name(), GL_COLOR, 0, open);
     fullscreen.draw(*upsample_, Where::surfaces);
 }
 

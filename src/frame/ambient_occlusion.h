@@ -11,8 +11,10 @@ namespace shoal::frame {
 class AmbientOcclusion {
 public:
     static Result<AmbientOcclusion> create(gl::Device& device);
-    Result<void> resize(int width, int height, gl::TextureView depth);   // depth: the G-buffer's, which picks the pixels
-    void compute(const Context& context, const LightingParams& params, const GBuffer& gbuffer, const Fullscreen& fullscreen);
+    Result<void> resize(int width, int height, gl::TextureView depth);  // depth: the G-buffer's, which picks the pixels
+    void compute(const Context& context, const LightingParams& params, const GBuffer& gbuffer,
+                 const Fullscreen& fullscreen);
+    void clear();  // to open everywhere
     // R8, full size, 1 open and where there is no surface.
     gl::TextureView result() const { return full_.view(); }
 

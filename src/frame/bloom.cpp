@@ -10,8 +10,8 @@ namespace shoal::frame {
 namespace {
 
 constexpr int kLargestLevelCount = 7;
-constexpr int kSmallestSide = 6;        // texels of the last level's shorter side
-constexpr float kCoarserShare = 0.6f;   // of each level's result that comes from the coarser ones: how wide the glow is
+constexpr int kSmallestSide = 6;       // texels of the last level's shorter side
+constexpr float kCoarserShare = 0.6f;  // of each level's result that comes from the coarser ones: how wide the glow is
 
 }  // namespace
 

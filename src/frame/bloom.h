@@ -17,7 +17,7 @@ public:
     Result<void> resize(int width, int height);
     // `first` has its source and uniforms bound; it is drawn into the half-size level.
     void compute(const gl::Program& first, int width, int height, const Fullscreen& fullscreen);
-    gl::TextureView result() const { return levels_.front().view(); }   // half size, linear filter
+    gl::TextureView result() const { return levels_.front().view(); }  // half size, linear filter
 
 private:
     gl::Device* device_ = nullptr;

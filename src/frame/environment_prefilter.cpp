@@ -1,8 +1,9 @@
-// Prefilters an environment by the roughness of what reflects it, on the CPU: in this form (few samples through a pyramid) plain C++ on
-// two cores takes a fraction of what the same loop takes in a compute shader on llvmpipe, and every machine gets the same bits.
+// Prefilters an environment by the roughness of what reflects it, on the CPU: in this form (few samples through a
+// pyramid) plain C++ on two cores takes a fraction of what the same loop takes in a compute shader on llvmpipe, and
+// every machine gets the same bits.
 //   [Karis 2013] Real Shading in Unreal Engine 4: the lobe seen along the normal stands for all.
-//   [Krivanek & Colbert 2008] Real-time Shading with Filtered Importance Sampling: each sample reads the pyramid at the level whose
-//   texels are as large as the solid angle that the sample stands for.
+//   [Krivanek & Colbert 2008] Real-time Shading with Filtered Importance Sampling: each sample reads the pyramid at the
+//   level whose texels are as large as the solid angle that the sample stands for.
 #include <array>
 #include <cmath>
 
@@ -18,9 +19,9 @@ namespace glsl {
 }  // namespace glsl
 namespace {
 
-constexpr int kLargestSize = 256;     // texels a side of level 0
-constexpr int kSmallestSize = 16;     // and of the last level; with 8 the facets of bilinear look-ups show on rough metal
-constexpr int kSampleCount = 32;      // at the first filtered level; doubled from level to level
+constexpr int kLargestSize = 256;  // texels a side of level 0
+constexpr int kSmallestSize = 16;  // and of the last level; with 8 the facets of bilinear look-ups show on rough metal
+constexpr int kSampleCount = 32;   // at the first filtered level; doubled from level to level
 
 // A square of radiance with texel centres inside (unlike PrefilteredLevel): what samples are read from.
 struct SourceLevel {
@@ -36,7 +37,7 @@ struct SourceLevel {
     Vec3 at(Vec3 direction) const {
         const glsl::vec2 square = glsl::squareFromDirection({direction.x, direction.y, direction.z});
         const float u = square.x * float(size) - 0.5f, v = square.y * float(size) - 0.5f;
-        const int x = int(u + 1) - 1, y = int(v + 1) - 1;   // floors for u, v >= -1
+        const int x = int(u + 1) - 1, y = int(v + 1) - 1;  // floors for u, v >= -1
         const float fx = u - float(x), fy = v - float(y);
         if (x >= 0 && y >= 0 && x + 1 < size && y + 1 < size) {
             const Vec3* p = &radiance[std::size_t(y) * std::size_t(size) + std::size_t(x)];
@@ -75,7 +76,8 @@ SourceLevel halved(const SourceLevel& fine) {
         for (int x = 0; x < size; ++x)
             level.radiance[std::size_t(y) * std::size_t(size) + std::size_t(x)] =
                 (fine.texel(2 * x, 2 * y) + fine.texel(2 * x + 1, 2 * y) + fine.texel(2 * x, 2 * y + 1) +
-                 fine.texel(2 * x + 1, 2 * y + 1)) * 0.25f;
+                 fine.texel(2 * x + 1, 2 * y + 1)) *
+                0.25f;
     return level;
 }
 
@@ -88,12 +90,13 @@ struct LobeSample {
 
 std::vector<LobeSample> lobeSamples(float roughness, int count, int baseSize, int levelCount) {
     const float alpha = roughness * roughness;
-    const float texelAngle = 4 * kPi / float(baseSize * baseSize);   // solid angle, sr
+    const float texelAngle = 4 * kPi / float(baseSize * baseSize);  // solid angle, sr
     std::vector<LobeSample> samples;
     for (int i = 0; i < count; ++i) {
         const float u = (float(i) + 0.5f) / float(count), v = float(radicalInverse(2, std::uint64_t(i)));
         // Half vectors distributed as D(h) cos(h), seen along the normal.
-        const float cosHalf = std::sqrt((1 - u) / (1 + (alpha * alpha - 1) * u)), sinHalf = std::sqrt(std::max(1 - cosHalf * cosHalf, 0.0f));
+        const float cosHalf = std::sqrt((1 - u) / (1 + (alpha * alpha - 1) * u)),
+                    sinHalf = std::sqrt(std::max(1 - cosHalf * cosHalf, 0.0f));
         const Vec3 half{sinHalf * std::cos(2 * kPi * v), sinHalf * std::sin(2 * kPi * v), cosHalf};
         const Vec3 toLight = half * (2 * cosHalf) - Vec3{0, 0, 1};
         if (toLight.z <= 0) continue;
@@ -120,8 +123,8 @@ PrefilteredLevel filled(int size, const F& radianceAlong) {
     PrefilteredLevel level{size, std::vector<Vec3>(std::size_t(size) * std::size_t(size))};
     parallelFor(std::size_t(size), 2, [&](std::size_t y) {
         for (int x = 0; x < size; ++x)
-            level.radiance[y * std::size_t(size) + std::size_t(x)] =
-                radianceAlong(fromGlsl(glsl::directionFromSquare({float(x) / float(size - 1), float(y) / float(size - 1)})));
+            level.radiance[y * std::size_t(size) + std::size_t(x)] = radianceAlong(
+                fromGlsl(glsl::directionFromSquare({float(x) / float(size - 1), float(y) / float(size - 1)})));
     });
     return level;
 }
@@ -139,12 +142,14 @@ std::vector<PrefilteredLevel> prefilterEnvironment(const light::Environment& env
     std::vector<PrefilteredLevel> levels{filled(size, [&](Vec3 d) { return source[0].at(d); })};
     for (int l = 1; l < levelCount; ++l) {
         const float roughness = glsl::roughnessOfLevel(float(l), float(levelCount));
-        const std::vector<LobeSample> samples = lobeSamples(roughness, kSampleCount << (l - 1), size, int(source.size()));
+        const std::vector<LobeSample> samples =
+            lobeSamples(roughness, kSampleCount << (l - 1), size, int(source.size()));
         levels.push_back(filled(size >> l, [&](Vec3 n) {
             const auto [t, b] = tangents(n);
             Vec3 sum;
             for (const LobeSample& s : samples)
-                sum += source[std::size_t(s.level)].at(t * s.direction.x + b * s.direction.y + n * s.direction.z) * s.weight;
+                sum += source[std::size_t(s.level)].at(t * s.direction.x + b * s.direction.y + n * s.direction.z) *
+                       s.weight;
             return sum;
         }));
     }

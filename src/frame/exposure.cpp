@@ -11,7 +11,8 @@ namespace shoal::frame {
 
 Result<Exposure> Exposure::create(gl::Device& device) {
     Exposure e;
-    SHOAL_TRY_ASSIGN(e.histogram_, device.programs().get({{"frame/exposure_histogram.comp"}, {}, "exposure histogram"}));
+    SHOAL_TRY_ASSIGN(e.histogram_,
+                     device.programs().get({{"frame/exposure_histogram.comp"}, {}, "exposure histogram"}));
     SHOAL_TRY_ASSIGN(e.adapt_, device.programs().get({{"frame/exposure_adapt.comp"}, {}, "exposure adapt"}));
     ExposureState start{};
     start.measured = start.adapted = start.antialiasing = 1;

@@ -15,8 +15,8 @@ public:
     void setForAntialiasing(float factor);
     // Follows the picture's brightness; share: how far to go in this step, 0..1. weighted: rgb is divided by a first.
     void adapt(gl::TextureView radiance, bool weighted, float share, bool forget);
-    void bind() const;          // at SHOAL_STORAGE_PASS
-    float adapted() const;      // reads back: waits for the GPU
+    void bind() const;      // at SHOAL_STORAGE_PASS
+    float adapted() const;  // reads back: waits for the GPU
 
 private:
     void count(gl::TextureView radiance, bool weighted);

@@ -16,8 +16,8 @@ enum class Where { everywhere, surfaces, background };
 class Fullscreen {
 public:
     static Fullscreen create(gl::Device& device);
-    // Draws into the bound framebuffer. Leaves blending, depth writes, culling, scissor and stencil off, depth test as `where` needs it;
-    // blend state is the caller's when `blend`.
+    // Draws into the bound framebuffer. Leaves blending, depth writes, culling, scissor and stencil off, depth test as
+    // `where` needs it; blend state is the caller's when `blend`.
     void draw(const gl::Program& program, Where where = Where::everywhere, bool blend = false) const;
 
 private:

@@ -8,10 +8,11 @@ namespace {
 
 Vec4 with(Vec3 v, float w) { return {v.x, v.y, v.z, w}; }
 
-// The polynomial of light.shared.h: light::evaluateIrradiance over pi, times the intensity [Ramamoorthi & Hanrahan 2001].
+// The polynomial of light.shared.h: light::evaluateIrradiance over pi, times the intensity [Ramamoorthi & Hanrahan
+// 2001].
 void fillIrradiance(const light::Sh9& sh, float intensity, Vec4 (&to)[9]) {
     constexpr float kY0 = 0.28209479f, kY1 = 0.48860251f, kY2 = 1.09254843f, kY20 = 0.31539157f, kY22 = 0.54627422f;
-    constexpr float kBand1 = 2.0f / 3.0f, kBand2 = 0.25f;   // of the clamped cosine, over pi
+    constexpr float kBand1 = 2.0f / 3.0f, kBand2 = 0.25f;  // of the clamped cosine, over pi
     const auto put = [&](int i, Vec3 c) { to[i] = with(c * intensity, 0); };
     put(0, sh.c[0] * kY0 - sh.c[6] * (kBand2 * kY20));
     put(1, sh.c[1] * (kBand1 * kY1));
@@ -24,7 +25,7 @@ void fillIrradiance(const light::Sh9& sh, float intensity, Vec4 (&to)[9]) {
     put(8, sh.c[8] * (kBand2 * kY22));
 }
 
-struct Affine {   // f(p) = at0 + p.x dx + p.y dy
+struct Affine {  // f(p) = at0 + p.x dx + p.y dy
     Vec3 at0, dx, dy;
 };
 
@@ -64,7 +65,8 @@ void fillRays(const Context& context, LightBlock& block) {
     }
     block.origin = with(origin.at0, 0), block.originX = with(origin.dx, 0), block.originY = with(origin.dy, 0);
     block.ray = with(ray.at0, 0), block.rayX = with(ray.dx, 0), block.rayY = with(ray.dy, 0);
-    block.backgroundRay = with(behind.at0, 0), block.backgroundRayX = with(behind.dx, 0), block.backgroundRayY = with(behind.dy, 0);
+    block.backgroundRay = with(behind.at0, 0), block.backgroundRayX = with(behind.dx, 0),
+    block.backgroundRayY = with(behind.dy, 0);
 }
 
 // Angle between neighbouring pixels in the middle of the picture, radians.
@@ -78,19 +80,22 @@ float pixelAngle(const LightBlock& block, const light::View& view) {
 }
 
 void fillSun(const Lights& lights, const LightingParams& params, float angleOfPixel, LightBlock& block) {
-    block.sunEdge = {2, 1.5f, 0, 0};   // beyond any cosine
+    block.sunEdge = {2, 1.5f, 0, 0};  // beyond any cosine
     if (!lights.sun) return;
     const light::Sun& sun = *lights.sun;
     block.toSun = with(normalize(sun.toSun), 1);
     block.sunIrradiance = with(sun.irradiance, 0.5f * sun.discHalfAngle);
+    block.sunDisc = {0, 0, 0, sun.castsShadow ? 1.0f : 0.0f};
     if (!params.sunDisc || sun.discHalfAngle <= 0) return;
-    // Half floats end at 65504 and the real disc at some 1e5: brightness is bent to stay below 40000 and keep its colour.
+    // Half floats end at 65504 and the real disc at some 1e5: brightness is bent to stay below 40000 and keep its
+    // colour.
     constexpr float kBrightest = 40000;
     const float solidAngle = 2 * kPi * (1 - std::cos(std::max(sun.discHalfAngle, 1e-4f)));
     const Vec3 radiance = sun.irradiance / solidAngle;
     const float strongest = std::max({radiance.x, radiance.y, radiance.z, 0.0f});
-    block.sunDisc = with(radiance * (1 / (1 + strongest / kBrightest)), 0);
-    const float inner = std::max(sun.discHalfAngle - 0.5f * angleOfPixel, 0.0f), outer = sun.discHalfAngle + 0.5f * angleOfPixel;
+    block.sunDisc = with(radiance * (1 / (1 + strongest / kBrightest)), block.sunDisc.w);
+    const float inner = std::max(sun.discHalfAngle - 0.5f * angleOfPixel, 0.0f),
+                outer = sun.discHalfAngle + 0.5f * angleOfPixel;
     block.sunEdge = {std::cos(inner), std::cos(outer), 0, 0};
 }
 
@@ -103,16 +108,17 @@ LightBlock makeLightBlock(const Context& context, const LightingParams& params, 
     const float angleOfPixel = pixelAngle(block, context.view);
     fillSun(lights, params, angleOfPixel, block);
     fillIrradiance(environment.sh, params.environmentIntensity, block.irradiance);
-    block.environment = {params.environmentIntensity, float(environment.prefilteredLevels), float(environment.prefilteredSize),
-                         environment.rotation / (2 * kPi)};
+    block.environment = {params.environmentIntensity, float(environment.prefilteredLevels),
+                         float(environment.prefilteredSize), environment.rotation / (2 * kPi)};
     const int background = params.background == "transparent" ? SHOAL_BACKGROUND_TRANSPARENT
                            : params.background == "color"     ? SHOAL_BACKGROUND_COLOR
                                                               : SHOAL_BACKGROUND_ENVIRONMENT;
     block.background = with(params.backgroundColor, float(background));
     const float texelAngle = 2 * kPi / float(environment.sharpWidth);
-    block.backgroundLevel = {params.backgroundBlur > 0 ? params.backgroundBlur * float(environment.prefilteredLevels - 1) : -1.0f,
-                             std::clamp(std::log2(angleOfPixel / texelAngle), 0.0f, float(environment.sharpLevels - 1)),
-                             angleOfPixel / texelAngle, 0};
+    block.backgroundLevel = {
+        params.backgroundBlur > 0 ? params.backgroundBlur * float(environment.prefilteredLevels - 1) : -1.0f,
+        std::clamp(std::log2(angleOfPixel / texelAngle), 0.0f, float(environment.sharpLevels - 1)),
+        angleOfPixel / texelAngle, 0};
     block.occlusion = {params.ambientOcclusion ? 1.0f : 0.0f, params.occlusionStrength, 0, 0};
     block.lightCount = {float(lights.punctual.size()), 0, 0, 0};
     return block;

@@ -14,7 +14,7 @@
 namespace shoal::frame {
 namespace {
 
-constexpr std::size_t kFirstLights = 64;   // room made at creation; more lights grow it
+constexpr std::size_t kFirstLights = 64;  // room made at creation; more lights grow it
 
 // With fewer texels of the environment a pixel than this the background is interpolated smoothly.
 constexpr float kTexelsPerPixelOfSmooth = 0.75f;
@@ -47,17 +47,17 @@ struct Lighting::State {
 
     gl::Device& device;
     Fullscreen fullscreen;
-    const gl::Program* shade[kShadeVariants] = {};   // by a sum of Variant; rare ones are built when first asked for
+    const gl::Program* shade[kShadeVariants] = {};  // by a sum of Variant; rare ones are built when first asked for
     const gl::Program *background = nullptr, *smoothBackground = nullptr, *plainBackground = nullptr;
     AmbientOcclusion occlusion;
     EnvironmentMap environment;
     gl::BlockBuffer<LightBlock> block;
     gl::Buffer localLights;
     std::vector<LocalLight> localScratch;
-    gl::Texture open;                         // 1 x 1, for forward passes without occlusion
+    gl::Texture open;  // 1 x 1, for forward passes without occlusion
     bool occlusionOn = false;
-    const gl::Program* behind = nullptr;      // the background's program, chosen by prepare()
-    int variant = 0;                          // of what prepare() was given
+    const gl::Program* behind = nullptr;  // the background's program, chosen by prepare()
+    int variant = 0;                      // of what prepare() was given
 
     bool termsWanted = false;
     gl::Texture direct, shadow;
@@ -102,7 +102,8 @@ void Lighting::State::bindLight() const {
 
 void Lighting::State::resizeTerms(const Targets& targets) {
     const int width = targets.gbuffer().width, height = targets.gbuffer().height;
-    if (withTerms && direct.width() == width && direct.height() == height && radianceName == targets.radiance().name) return;
+    if (withTerms && direct.width() == width && direct.height() == height && radianceName == targets.radiance().name)
+        return;
     direct = makeTarget(device, GL_RGBA16F, width, height, "direct");
     shadow = makeTarget(device, GL_R8, width, height, "shadow");
     if (!direct || !shadow) return;
@@ -148,7 +149,8 @@ Result<void> Lighting::setEnvironment(const light::Environment& environment) {
     return {};
 }
 
-void Lighting::prepare(const Context& context, const LightingParams& params, const Lights& lights, const Targets& targets) {
+void Lighting::prepare(const Context& context, const LightingParams& params, const Lights& lights,
+                       const Targets& targets) {
     State& s = *state_;
     s.occlusionOn = params.ambientOcclusion;
     s.variant = (lights.sun ? 0 : kNoSun) | (lights.punctual.empty() ? kNoLocalLights : 0);
@@ -160,18 +162,21 @@ void Lighting::prepare(const Context& context, const LightingParams& params, con
     const std::size_t bytes = s.localScratch.size() * sizeof(LocalLight);
     if (bytes > s.localLights.bytes()) s.localLights = gl::Buffer::create(s.device, bytes * 2, "local lights");
     if (bytes > 0 && s.localLights) s.localLights.writeAll(std::span<const LocalLight>(s.localScratch));
-    if (!s.occlusionOn) return;
+    if (!s.occlusionOn && !s.termsWanted) return;
     const GBuffer& g = targets.gbuffer();
     if (const auto ready = s.occlusion.resize(g.width, g.height, g.depth); !ready) {
         s.device.log(LogLevel::error, ready.error().message);
         s.occlusionOn = false;
         return;
     }
-    s.occlusion.compute(context, params, g, s.fullscreen);
+    if (s.occlusionOn)
+        s.occlusion.compute(context, params, g, s.fullscreen);
+    else
+        s.occlusion.clear();
 }
 
-void Lighting::shade(const Context& context, const LightingParams&, const Shadows& shadows, const LightOverrides& overrides,
-                     const Targets& targets) {
+void Lighting::shade(const Context& context, const LightingParams&, const Shadows& shadows,
+                     const LightOverrides& overrides, const Targets& targets) {
     State& s = *state_;
     SHOAL_ASSERT_MSG(s.behind, "prepare() comes before shade()");
     s.bindLight();
@@ -199,7 +204,8 @@ void Lighting::shade(const Context& context, const LightingParams&, const Shadow
         } else {
             targets.forward().bind();
         }
-        s.fullscreen.draw(s.shadeVariant(s.variant | (own ? kSunIrradiance : 0) | (terms ? kTerms : 0)), Where::surfaces);
+        s.fullscreen.draw(s.shadeVariant(s.variant | (own ? kSunIrradiance : 0) | (terms ? kTerms : 0)),
+                          Where::surfaces);
     }
     const gl::PassScope pass(context.timer, "background");
     targets.forward().bind();
@@ -211,6 +217,9 @@ void Lighting::bind() const { state_->bindLight(); }
 void Lighting::setTermsWanted(bool wanted) { state_->termsWanted = wanted; }
 gl::TextureView Lighting::direct() const { return state_->direct.view(); }
 gl::TextureView Lighting::shadow() const { return state_->shadow.view(); }
-gl::TextureView Lighting::occlusion() const { return state_->occlusionOn ? state_->occlusion.result() : state_->open.view(); }
+gl::TextureView Lighting::occlusion() const {
+    const State& s = *state_;
+    return s.occlusionOn || s.termsWanted ? s.occlusion.result() : s.open.view();
+}
 
 }  // namespace shoal::frame

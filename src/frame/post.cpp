@@ -15,7 +15,8 @@
 namespace shoal::frame {
 namespace {
 
-Result<gl::Texture> makeTarget(gl::Device& device, gl::Enum format, int width, int height, bool linear, const char* label) {
+Result<gl::Texture> makeTarget(gl::Device& device, gl::Enum format, int width, int height, bool linear,
+                               const char* label) {
     gl::TextureDesc desc;
     desc.format = format;
     desc.width = width, desc.height = height;
@@ -36,8 +37,11 @@ int variantOf(const PostParams& params) {
 }
 
 Result<const gl::Program*> presentProgram(gl::Device& device, int variant) {
-    const std::pair<Variant, const char*> names[] = {
-        {kAccumulated, "ACCUMULATED"}, {kBloom, "BLOOM"}, {kLook, "LOOK"}, {kAgx, "CURVE_AGX"}, {kPlain, "CURVE_PLAIN"}};
+    const std::pair<Variant, const char*> names[] = {{kAccumulated, "ACCUMULATED"},
+                                                     {kBloom, "BLOOM"},
+                                                     {kLook, "LOOK"},
+                                                     {kAgx, "CURVE_AGX"},
+                                                     {kPlain, "CURVE_PLAIN"}};
     std::vector<std::pair<std::string, std::string>> defines;
     for (const auto& [bit, name] : names)
         if (variant & bit) defines.emplace_back(name, "1");
@@ -59,8 +63,9 @@ struct Post::State {
     Exposure exposure;
     Bloom bloom;
     const gl::Program *accumulate = nullptr, *resolve = nullptr, *temporal = nullptr;
-    const gl::Program* bloomFirst[2] = {};    // [accumulated]
-    const gl::Program* present[kPresentVariants] = {};   // by a sum of Variant; others than the default are built when first asked for
+    const gl::Program* bloomFirst[2] = {};  // [accumulated]
+    const gl::Program* present[kPresentVariants] =
+        {};  // by a sum of Variant; others than the default are built when first asked for
 
     int width = 0, height = 0;
     enum class Source { none, accumulated, temporal } source = Source::none;
@@ -113,7 +118,8 @@ Result<void> Post::State::makePrograms() {
 Result<void> Post::State::resizeSums(int newWidth, int newHeight) {
     if (linearSum && linearSum.width() == newWidth && linearSum.height() == newHeight) return {};
     SHOAL_TRY_ASSIGN(linearSum, makeTarget(device, GL_RGBA32F, newWidth, newHeight, false, "sum of samples"));
-    SHOAL_TRY_ASSIGN(weightedSum, makeTarget(device, GL_RGBA32F, newWidth, newHeight, false, "weighted sum of samples"));
+    SHOAL_TRY_ASSIGN(weightedSum,
+                     makeTarget(device, GL_RGBA32F, newWidth, newHeight, false, "weighted sum of samples"));
     SHOAL_TRY_ASSIGN(resolved, makeTarget(device, GL_RGBA32F, newWidth, newHeight, false, "mean of samples"));
     const gl::Framebuffer::Attachment sums[] = {{linearSum.view()}, {weightedSum.view()}}, mean[] = {{resolved.view()}};
     SHOAL_TRY_ASSIGN(toSums, gl::Framebuffer::create(device, sums, {}, "sums of samples"));
@@ -159,8 +165,10 @@ gl::TextureView Post::State::linear() {
 }
 
 void Post::State::weighSamples(gl::TextureView radiance) {
-    if (expectedExposure > 0) exposure.setForAntialiasing(expectedExposure);
-    else exposure.measureForAntialiasing(radiance);
+    if (expectedExposure > 0)
+        exposure.setForAntialiasing(expectedExposure);
+    else
+        exposure.measureForAntialiasing(radiance);
 }
 
 void Post::State::bindSource() const {
@@ -182,7 +190,7 @@ void Post::State::setReprojection(const Context& context) {
         const Vec4 clip = toPrevious * Vec4{d.x, d.y, d.z, 0};
         return Vec4{clip.x, clip.y, clip.w, 0};
     };
-    if (view.orthographic || context.previousView.orthographic) {   // w = 0 tells that nothing moves
+    if (view.orthographic || context.previousView.orthographic) {  // w = 0 tells that nothing moves
         for (int location = 1; location <= 3; ++location) temporal->set(location, Vec4{});
         return;
     }
@@ -198,8 +206,10 @@ void Post::State::setReprojection(const Context& context) {
 const gl::Program* Post::State::presentVariant(int wanted) {
     if (!present[wanted]) {
         auto made = presentProgram(device, wanted);
-        if (made) present[wanted] = *made;
-        else device.log(LogLevel::error, made.error().message);
+        if (made)
+            present[wanted] = *made;
+        else
+            device.log(LogLevel::error, made.error().message);
     }
     return present[wanted];
 }
@@ -239,7 +249,7 @@ void Post::accumulate(const Context& context, const Targets& targets) {
     s.exposure.bind();
     bindInput(0, targets.radiance());
     s.toSums.bind();
-    const bool add = s.sampleCount > 0;   // the first sample overwrites: nothing needs clearing
+    const bool add = s.sampleCount > 0;  // the first sample overwrites: nothing needs clearing
     if (add) {
         glEnable(GL_BLEND);
         glBlendEquation(GL_FUNC_ADD);
@@ -285,7 +295,8 @@ void Post::present(const Context& context, const PostParams& params, bool reset)
     if (s.automatic) {
         const gl::PassScope pass(context.timer, "exposure");
         const float share = params.adaptation > 0 ? 1 - std::exp(-context.timeStep / params.adaptation) : 1.0f;
-        s.exposure.adapt(s.accumulated() ? s.weightedSum.view() : s.history[s.newest].view(), s.accumulated(), share, reset);
+        s.exposure.adapt(s.accumulated() ? s.weightedSum.view() : s.history[s.newest].view(), s.accumulated(), share,
+                         reset);
     }
     const bool bloom = params.bloom > 0 && s.ready(s.bloom.resize(s.width, s.height), "bloom");
     if (bloom) {
@@ -311,8 +322,6 @@ void Post::present(const Context& context, const PostParams& params, bool reset)
 
 gl::TextureView Post::display() const { return state_->display.view(); }
 
-float Post::exposure() const {
-    return state_->fixedFactor * (state_->automatic ? state_->exposure.adapted() : 1.0f);
-}
+float Post::exposure() const { return state_->fixedFactor * (state_->automatic ? state_->exposure.adapted() : 1.0f); }
 
 }  // namespace shoal::frame

@@ -22,14 +22,27 @@ struct Transfer {
 
 Transfer transferOf(gl::Enum format) {
     switch (format) {
-        case GL_RGBA32F: case GL_RGBA16F: return {GL_RGBA, GL_FLOAT, 4};
-        case GL_RGBA8: return {GL_RGBA, GL_FLOAT, 4};
-        case GL_R11F_G11F_B10F: return {GL_RGB, GL_FLOAT, 3};
-        case GL_RG32F: case GL_RG16F: case GL_RG16: return {GL_RG, GL_FLOAT, 2};
-        case GL_R32F: case GL_R16F: case GL_R8: return {GL_RED, GL_FLOAT, 1};
-        case GL_DEPTH_COMPONENT32F: return {GL_DEPTH_COMPONENT, GL_FLOAT, 1};
-        case GL_R32UI: return {GL_RED_INTEGER, GL_UNSIGNED_INT, 1};
-        default: return {};
+        case GL_RGBA32F:
+        case GL_RGBA16F:
+            return {GL_RGBA, GL_FLOAT, 4};
+        case GL_RGBA8:
+            return {GL_RGBA, GL_FLOAT, 4};
+        case GL_R11F_G11F_B10F:
+            return {GL_RGB, GL_FLOAT, 3};
+        case GL_RG32F:
+        case GL_RG16F:
+        case GL_RG16:
+            return {GL_RG, GL_FLOAT, 2};
+        case GL_R32F:
+        case GL_R16F:
+        case GL_R8:
+            return {GL_RED, GL_FLOAT, 1};
+        case GL_DEPTH_COMPONENT32F:
+            return {GL_DEPTH_COMPONENT, GL_FLOAT, 1};
+        case GL_R32UI:
+            return {GL_RED_INTEGER, GL_UNSIGNED_INT, 1};
+        default:
+            return {};
     }
 }
 
@@ -53,7 +66,8 @@ Result<void> checkReadable(const gl::Device& device, const gl::TextureView& text
     (void)device;
     if (!texture) return internalError("cannot read a texture that is not there");
     if (texture.target != GL_TEXTURE_2D)
-        return internalError(fmt::format("cannot read a texture of target 0x{:04x}, expected GL_TEXTURE_2D", texture.target));
+        return internalError(
+            fmt::format("cannot read a texture of target 0x{:04x}, expected GL_TEXTURE_2D", texture.target));
     if (!knownFormat) return internalError(fmt::format("cannot read a texture of format 0x{:04x}", texture.format));
     return {};
 }
@@ -64,7 +78,8 @@ Result<Image> readImage(gl::Device& device, const gl::TextureView& texture, int 
     const Transfer transfer = transferOf(texture.format);
     SHOAL_TRY(checkReadable(device, texture, transfer.format != 0));
     if (channelCount < 1 || channelCount > transfer.channelCount)
-        return internalError(fmt::format("asked for {} channels of a texture with {}", channelCount, transfer.channelCount));
+        return internalError(
+            fmt::format("asked for {} channels of a texture with {}", channelCount, transfer.channelCount));
     const std::size_t rowFloats = std::size_t(texture.width) * std::size_t(transfer.channelCount);
     std::vector<float> raw(rowFloats * std::size_t(texture.height));
     download(texture, transfer.format, transfer.type, raw.size() * sizeof(float), raw.data());
@@ -95,7 +110,8 @@ Result<ByteImage> readByteImage(gl::Device& device, const gl::TextureView& textu
     download(texture, GL_RGBA, GL_UNSIGNED_BYTE, image.pixels.size(), image.pixels.data());
     const std::ptrdiff_t row = std::ptrdiff_t(texture.width) * 4;
     for (std::ptrdiff_t low = 0, high = texture.height - 1; low < high; ++low, --high)
-        std::swap_ranges(image.pixels.begin() + low * row, image.pixels.begin() + (low + 1) * row, image.pixels.begin() + high * row);
+        std::swap_ranges(image.pixels.begin() + low * row, image.pixels.begin() + (low + 1) * row,
+                         image.pixels.begin() + high * row);
     return image;
 }
 

@@ -1,5 +1,6 @@
 // Sample offsets for antialiasing.
-//   [Hammersley 1960; Shirley 1991] radical inverses as well-spread points; the digital shift turns the 4-point set into the rotated grid.
+//   [Hammersley 1960; Shirley 1991] radical inverses as well-spread points; the digital shift turns the 4-point set
+//   into the rotated grid.
 #include <shoal/core/assert.h>
 #include <shoal/core/random.h>
 #include <shoal/frame/post.h>
@@ -18,8 +19,9 @@ std::uint32_t shiftedInverse(std::uint32_t index) {
 
 Vec2 samplePattern(int index, int count) {
     SHOAL_ASSERT_GE(index, 0);
-    if (count <= 0)   // Halton, for histories: any run of consecutive points covers the pixel
-        return {float(radicalInverse(2, std::uint64_t(index) % 1024 + 1) - 0.5), float(radicalInverse(3, std::uint64_t(index) % 1024 + 1) - 0.5)};
+    if (count <= 0)  // Halton, for histories: any run of consecutive points covers the pixel
+        return {float(radicalInverse(2, std::uint64_t(index) % 1024 + 1) - 0.5),
+                float(radicalInverse(3, std::uint64_t(index) % 1024 + 1) - 0.5)};
     SHOAL_ASSERT_LT(index, count);
     // Row: the rank of this point's radical inverse among all, so that any count fills every row and every column once.
     const std::uint32_t own = shiftedInverse(std::uint32_t(index));

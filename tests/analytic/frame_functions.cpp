@@ -28,7 +28,7 @@ TEST(FrameBrdf, NormalDistributionProjectsToOne) {
         double sum = 0;
         const int n = 20000;
         for (int i = 0; i < n; ++i) {
-            const double c = (i + 0.5) / n;   // cosine of the half vector
+            const double c = (i + 0.5) / n;  // cosine of the half vector
             sum += 2 * kPiD * double(glsl::distributionGgx(float(c), float(alpha))) * c / n;
         }
         EXPECT_NEAR(sum, 1, 5e-3) << alpha;
@@ -42,7 +42,8 @@ TEST(FrameBrdf, MaskingIsReciprocal) {
                 EXPECT_FLOAT_EQ(glsl::visibilitySmith(v, l, alpha), glsl::visibilitySmith(l, v, alpha));
 }
 
-// Albedo of the height-correlated lobe by sampling visible normals [Heitz 2018], for f0 = 1 (x) and the Fresnel-weighted part (y).
+// Albedo of the height-correlated lobe by sampling visible normals [Heitz 2018], for f0 = 1 (x) and the
+// Fresnel-weighted part (y).
 struct Albedo {
     double all = 0, grazing = 0;
 };
@@ -81,7 +82,7 @@ TEST(FrameBrdf, SplitSumFitsQuadrature) {
             worstAll = std::max(worstAll, std::abs(double(got.x + got.y) - expected.all));
             worstGrazing = std::max(worstGrazing, std::abs(double(got.y) - expected.grazing));
         }
-    EXPECT_LT(worstAll, 0.035);       // the fit was made with 0.030 and 0.013 on another grid
+    EXPECT_LT(worstAll, 0.035);  // the fit was made with 0.030 and 0.013 on another grid
     EXPECT_LT(worstGrazing, 0.017);
     EXPECT_GT(worstAll + worstGrazing, 0.001) << "the quadrature compares the fit with itself";
 }
@@ -133,7 +134,8 @@ double agxByScript(double x) {
     const bool upper = x >= pivotX;
     const double power = upper ? 3.25 : 3.0;
     const double scaleX = upper ? 1 - pivotX : pivotX, scaleY = upper ? 1 - pivotY : pivotY;
-    double scale = std::pow(std::pow(slope * scaleX, -power) * (std::pow(slope * (scaleX / scaleY), power) - 1), -1 / power);
+    double scale =
+        std::pow(std::pow(slope * scaleX, -power) * (std::pow(slope * (scaleX / scaleY), power) - 1), -1 / power);
     if (!upper) scale = -scale;
     const double term = slope * (x - pivotX) / scale;
     return scale * (term / std::pow(1 + std::pow(term, power), 1 / power)) + pivotY;
@@ -144,7 +146,8 @@ TEST(FrameTonemap, AgxCurveIsThePublishedOne) {
 }
 
 TEST(FrameTonemap, AgxKeepsMiddleGreyAndNeutrals) {
-    // 0.18 is half of the display's range, which a power of 2.2 shows as 0.2176; greys stay grey; black is black, bright is white.
+    // 0.18 is half of the display's range, which a power of 2.2 shows as 0.2176; greys stay grey; black is black,
+    // bright is white.
     const vec3 grey = glsl::displayByAgx(vec3(0.18f));
     EXPECT_NEAR(grey.x, 0.5f, 1e-3f);
     EXPECT_NEAR(grey.y, 0.5f, 1e-3f);
@@ -202,7 +205,8 @@ TEST(FrameSamplePattern, FillsEveryRowAndColumnOnce) {
     EXPECT_EQ(samplePattern(0, 1), (Vec2{0, 0}));
 }
 
-TEST(FrameSamplePattern, FillsSquaresToo) {   // a (0, m, 2)-net in base 2: every elementary box holds as many points as any
+TEST(FrameSamplePattern,
+     FillsSquaresToo) {  // a (0, m, 2)-net in base 2: every elementary box holds as many points as any
     const int m = 6, count = 1 << m;
     for (int k = 0; k <= m; ++k) {
         std::vector<int> boxes(std::size_t(count), 0);

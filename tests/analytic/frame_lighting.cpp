@@ -25,7 +25,7 @@ protected:
     std::unique_ptr<test::LitPatch> patch_;
 };
 
-light::Sun sunAt(float zenithAngle) {   // from the normal +z
+light::Sun sunAt(float zenithAngle) {  // from the normal +z
     light::Sun sun;
     sun.toSun = {std::sin(zenithAngle), 0, std::cos(zenithAngle)};
     sun.irradiance = {8, 6, 4};
@@ -54,17 +54,22 @@ TEST_F(FrameLighting, NoLightNoRadiance) {
     EXPECT_EQ(patch_->shaded({}), (Vec4{0, 0, 0, 1}));
 }
 
-// A surface that absorbs nothing, in light of radiance 1 from everywhere, cannot be told from it. The split sum is a fit: its error
-// (brdf.lib.glsl) cancels for white surfaces by construction; what is left is the prefiltered map's and 8-bit storage.
+// A surface that absorbs nothing, in light of radiance 1 from everywhere, cannot be told from it. The split sum is a
+// fit: its error (brdf.lib.glsl) cancels for white surfaces by construction; what is left is the prefiltered map's and
+// 8-bit storage.
 TEST_F(FrameLighting, WhiteFurnace) {
     patch_->setConstantEnvironment(1);
     for (const float roughness : {0.0f, 0.3f, 0.6f, 1.0f})
         for (const float tilt : {0.0f, 0.7f, 1.3f, 1.5f})
             for (const float metallic : {0.0f, 1.0f}) {
                 patch_->put({.normal = {std::sin(tilt), 0, std::cos(tilt)},
-                             .roughness = roughness, .metallic = metallic, .f0 = 0.04f, .viewDepth = 3});
+                             .roughness = roughness,
+                             .metallic = metallic,
+                             .f0 = 0.04f,
+                             .viewDepth = 3});
                 const Vec4 got = patch_->shaded({});
-                EXPECT_NEAR(got.x, 1, 3e-3f) << "roughness " << roughness << " tilt " << tilt << " metallic " << metallic;
+                EXPECT_NEAR(got.x, 1, 3e-3f)
+                    << "roughness " << roughness << " tilt " << tilt << " metallic " << metallic;
             }
 }
 
@@ -73,7 +78,11 @@ TEST_F(FrameLighting, DielectricReflectsLittleStraightAndMuchGrazing) {
     patch_->setConstantEnvironment(1);
     patch_->put({.baseColor = {0, 0, 0}, .roughness = 0, .f0 = 0.04f, .viewDepth = 3});
     EXPECT_NEAR(patch_->shaded({}).x, 0.04f, 0.015f);
-    patch_->put({.normal = {std::sin(1.45f), 0, std::cos(1.45f)}, .baseColor = {0, 0, 0}, .roughness = 0, .f0 = 0.04f, .viewDepth = 3});
+    patch_->put({.normal = {std::sin(1.45f), 0, std::cos(1.45f)},
+                 .baseColor = {0, 0, 0},
+                 .roughness = 0,
+                 .f0 = 0.04f,
+                 .viewDepth = 3});
     const float schlick = 0.04f + 0.96f * std::pow(1 - std::cos(1.45f), 5.0f);
     EXPECT_NEAR(patch_->shaded({}).x, schlick, 0.05f);
 }
@@ -96,7 +105,8 @@ TEST_F(FrameLighting, EnvironmentOfOneHarmonicLightsAsInTheClosedForm) {
 TEST_F(FrameLighting, PointLightFallsWithTheSquareOfDistance) {
     const float albedo = test::storedBaseColor({0.6f, 0.6f, 0.6f}).x;
     patch_->put({.baseColor = {albedo, albedo, albedo}, .viewDepth = 3});
-    // The middle pixel of 16 x 16 (x = y = 8, from the top) is half a pixel right of and below the axis, a pixel being 2 / 16 m.
+    // The middle pixel of 16 x 16 (x = y = 8, from the top) is half a pixel right of and below the axis, a pixel being
+    // 2 / 16 m.
     const Vec3 point{0.0625f, -0.0625f, -3};
     for (const float distance : {0.5f, 1.0f, 2.0f, 2.9f}) {
         light::PunctualLight light;
@@ -119,7 +129,7 @@ TEST_F(FrameLighting, SpotsAndRangesFollowTheLightModule) {
     light.innerCone = 0.2f, light.outerCone = 0.5f;
     light.range = 5;
     float last = 1e9f;
-    for (const float off : {0.0f, 0.1f, 0.3f, 0.4f, 0.6f}) {   // angle between the axis and the point
+    for (const float off : {0.0f, 0.1f, 0.3f, 0.4f, 0.6f}) {  // angle between the axis and the point
         light.direction = {std::sin(off), 0, -std::cos(off)};
         const float expected = albedo / kPi * light::irradianceAt(light, point).x;
         const float got = patch_->shaded({nullptr, {&light, 1}}).x;
@@ -136,7 +146,8 @@ TEST_F(FrameLighting, SpotsAndRangesFollowTheLightModule) {
 TEST_F(FrameLighting, GivenIrradianceTakesTheSunsPlaceWhereItCovers) {
     const float albedo = test::storedBaseColor({0.6f, 0.6f, 0.6f}).x;
     patch_->put({.baseColor = {albedo, albedo, albedo}, .viewDepth = 3});
-    gl::Texture given = gl::Texture::create(device(), {.format = GL_RGBA16F, .width = 16, .height = 16, .label = "given"});
+    gl::Texture given =
+        gl::Texture::create(device(), {.format = GL_RGBA16F, .width = 16, .height = 16, .label = "given"});
     const light::Sun sun = sunAt(0.5f);
     const float covered[4] = {3, 3, 3, 1}, open[4] = {3, 3, 3, 0};
     given.clear(GL_RGBA, GL_FLOAT, covered);
@@ -193,9 +204,10 @@ protected:
         patch_.reset();
         GlTest::TearDown();
     }
-    Vec3 directionOf(int x, int y) const {   // of pixel (x, y) from the top
+    Vec3 directionOf(int x, int y) const {  // of pixel (x, y) from the top
         const light::View& view = patch_->context.view;
-        const Vec3 ndc{2 * (float(x) + 0.5f) / float(view.width) - 1, 1 - 2 * (float(y) + 0.5f) / float(view.height), 1};
+        const Vec3 ndc{2 * (float(x) + 0.5f) / float(view.width) - 1, 1 - 2 * (float(y) + 0.5f) / float(view.height),
+                       1};
         return normalize(transformDirection(view.worldFromView, transformPoint(view.viewFromClip, ndc)));
     }
     std::unique_ptr<test::LitPatch> patch_;
@@ -203,7 +215,7 @@ protected:
 
 TEST_F(FrameBackground, ShowsWhatLiesInTheDirectionOfEachPixel) {
     light::Environment environment;
-    environment.radiance = Image(64, 32, 3);   // smooth, without symmetry
+    environment.radiance = Image(64, 32, 3);  // smooth, without symmetry
     for (int y = 0; y < 32; ++y)
         for (int x = 0; x < 64; ++x) {
             const float u = (float(x) + 0.5f) / 64 * 2 * kPi, v = (float(y) + 0.5f) / 32 * kPi;
@@ -211,7 +223,8 @@ TEST_F(FrameBackground, ShowsWhatLiesInTheDirectionOfEachPixel) {
             p[0] = 2 + std::sin(u), p[1] = 2 + std::cos(u), p[2] = 2 + std::cos(v);
         }
     for (const float rotation : {0.0f, 1.1f, -2.5f})
-        for (const Vec3 target : {Vec3{0, 0, -1}, Vec3{1, 0.3f, 0.2f}, Vec3{-0.5f, -0.7f, 0.8f}, Vec3{0.05f, 1, 0.02f}}) {
+        for (const Vec3 target :
+             {Vec3{0, 0, -1}, Vec3{1, 0.3f, 0.2f}, Vec3{-0.5f, -0.7f, 0.8f}, Vec3{0.05f, 1, 0.02f}}) {
             environment.rotation = rotation;
             ASSERT_TRUE(patch_->lighting.setEnvironment(environment));
             patch_->context.view = light::makeView(light::cameraLookingAt({0, 0, 0}, target, radians(60)), 64, 48);
@@ -231,7 +244,8 @@ TEST_F(FrameBackground, BlurredAndSharpAgreeOnASmoothSky) {
     environment.radiance = Image(128, 64, 3);
     for (int y = 0; y < 64; ++y)
         for (int x = 0; x < 128; ++x)
-            for (int k = 0; k < 3; ++k) environment.radiance.at(x, y)[k] = 1 + 0.5f * std::cos(kPi * (float(y) + 0.5f) / 64);
+            for (int k = 0; k < 3; ++k)
+                environment.radiance.at(x, y)[k] = 1 + 0.5f * std::cos(kPi * (float(y) + 0.5f) / 64);
     ASSERT_TRUE(patch_->lighting.setEnvironment(environment));
     const Vec4 sharp = patch_->shaded({});
     patch_->params.backgroundBlur = 0.4f;
@@ -243,7 +257,7 @@ TEST_F(FrameBackground, TheSunsDiscIsWhereTheSunIs) {
     patch_->setConstantEnvironment(0.5f);
     light::Sun sun;
     sun.toSun = directionOf(20, 10);
-    sun.discHalfAngle = radians(2.5f);   // some 4 pixels
+    sun.discHalfAngle = radians(2.5f);  // some 4 pixels
     sun.irradiance = {9, 9, 9};
     patch_->shaded({&sun, {}});
     const Image got = *readImage(device(), patch_->targets.radiance(), 3);
@@ -251,7 +265,8 @@ TEST_F(FrameBackground, TheSunsDiscIsWhereTheSunIs) {
     EXPECT_NEAR(got.at(20, 10)[0], 0.5f + disc / (1 + disc / 40000), 1.0f);
     EXPECT_NEAR(got.at(40, 30)[0], 0.5f, kStored);
     EXPECT_NEAR(got.at(20, 16)[0], 0.5f, kStored) << "6 pixels off is beyond the disc";
-    // The disc's light adds up to the sun's irradiance: pixels near the picture's middle see (40 degrees / 48)^2 sr or a bit less.
+    // The disc's light adds up to the sun's irradiance: pixels near the picture's middle see (40 degrees / 48)^2 sr or
+    // a bit less.
     double sum = 0;
     for (std::size_t i = 0; i < got.pixels.size(); i += 3) sum += double(got.pixels[i]) - 0.5;
     const double pixel = std::pow(2 * std::tan(radians(20)) / 48, 2);

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
+#include <memory>
 
 #include <shoal/core/parallel.h>
 #include <shoal/core/random.h>
@@ -70,7 +72,8 @@ TEST(FramePrefilter, LevelsAreTheLobesIntegral) {
         int count = 0;
         for (int y = 0; y < size; y += std::max(size / 8, 1))
             for (int x = 0; x < size; x += std::max(size / 8, 1)) {
-                const glsl::vec3 d = glsl::directionFromSquare({float(x) / float(size - 1), float(y) / float(size - 1)});
+                const glsl::vec3 d =
+                    glsl::directionFromSquare({float(x) / float(size - 1), float(y) / float(size - 1)});
                 const double expected = lobeMean(environment, {d.x, d.y, d.z}, roughness);
                 error += std::abs(double(levels[l].radiance[std::size_t(y * size + x)].x) - expected);
                 sum += expected;
@@ -112,11 +115,12 @@ TEST_F(FrameEnvironment, MirrorsShowWhatTheyFace) {
             p[0] = 2 + std::sin(u), p[1] = 2 + std::cos(u), p[2] = 2 + std::cos(v);
         }
     for (const float rotation : {0.0f, 0.9f})
-        for (const Vec3 normal : {Vec3{0, 0, 1}, normalize(Vec3{0.5f, 0.2f, 1}), normalize(Vec3{-0.3f, -0.6f, 1}), normalize(Vec3{0.1f, 0.7f, 1})}) {
+        for (const Vec3 normal : {Vec3{0, 0, 1}, normalize(Vec3{0.5f, 0.2f, 1}), normalize(Vec3{-0.3f, -0.6f, 1}),
+                                  normalize(Vec3{0.1f, 0.7f, 1})}) {
             environment.rotation = rotation;
             ASSERT_TRUE(patch->lighting.setEnvironment(environment));
             patch->put({.normal = normal, .roughness = 0, .metallic = 1, .viewDepth = 3});
-            const Vec3 toEye{0, 0, 1};   // orthographic
+            const Vec3 toEye{0, 0, 1};  // orthographic
             const Vec3 expected = light::lookUp(environment, normal * (2 * dot(normal, toEye)) - toEye);
             const Vec4 got = patch->shaded({});
             EXPECT_NEAR(got.x, expected.x, 0.04f) << rotation << " " << normal.x << " " << normal.y;
@@ -137,6 +141,19 @@ TEST_F(FrameEnvironment, RefusesWhatIsNoMap) {
     EXPECT_NE(refused.error().message.find("3"), std::string::npos);
 }
 
+TEST_F(FrameEnvironment, OneBadTexelSpoilsNothing) {
+    auto patch = std::make_unique<test::LitPatch>(device(), 16, 16);
+    patch->put({.roughness = 1, .metallic = 1, .viewDepth = 3});
+    light::Environment environment = constantMap(1);
+    environment.radiance.at(5, 20)[0] = std::nanf("");
+    environment.radiance.at(9, 3)[0] = -1e30f;
+    ASSERT_TRUE(patch->lighting.setEnvironment(environment));
+    EXPECT_NEAR(patch->shaded({}).x, 1, 0.02f);
+    environment.radiance.at(9, 3)[0] = std::numeric_limits<float>::infinity();
+    ASSERT_TRUE(patch->lighting.setEnvironment(environment));
+    EXPECT_TRUE(std::isfinite(patch->shaded({}).x));
+}
+
 TEST_F(FrameEnvironment, HalvesKeepLargeAndTinyRadiance) {
     auto patch = std::make_unique<test::LitPatch>(device(), 16, 16, false);
     patch->params.background = "environment";
@@ -145,7 +162,7 @@ TEST_F(FrameEnvironment, HalvesKeepLargeAndTinyRadiance) {
         patch->setConstantEnvironment(radiance);
         EXPECT_NEAR(patch->shaded({}).x, radiance, radiance * 1e-3f + 6e-8f);
     }
-    patch->setConstantEnvironment(1e9f);   // beyond half floats: as bright as they go
+    patch->setConstantEnvironment(1e9f);  // beyond half floats: as bright as they go
     EXPECT_GT(patch->shaded({}).x, 60000);
     patch.reset();
 }

@@ -24,7 +24,7 @@ namespace shoal::frame {
 namespace {
 
 constexpr int kCount = 4096;
-constexpr int kAnswers = 10;   // vec4s a question
+constexpr int kAnswers = 10;  // vec4s a question
 
 constexpr const char* kAskShader = R"(#version 450 core
 #include "frame/brdf.lib.glsl"
@@ -37,16 +37,19 @@ void main() {
     vec4 q = questions[i];
     vec3 d = normalize(q.xyz - 0.5);
     uint a = i * 10u;
-    answers[a + 0u] = vec4(distributionGgx(q.x, q.y), visibilitySmith(q.x, q.z, q.y), pow5(q.w), grazingReflectance(q.xyz * 0.04));
+    answers[a + 0u] = vec4(distributionGgx(q.x, q.y), visibilitySmith(q.x, q.z, q.y), pow5(q.w),
+                           grazingReflectance(q.xyz * 0.04));
     answers[a + 1u] = vec4(fresnelSchlick(q.xyz, q.w, q.x), 0.0);
     answers[a + 2u] = vec4(splitSum(q.x, q.y), splitSum(q.z, q.w));
     answers[a + 3u] = vec4(specularAlbedo(q.xyz, q.w, splitSum(q.x, q.y)), specularOcclusion(q.x, q.y, q.z));
     answers[a + 4u] = vec4(interreflection(q.w, q.xyz), rangeWindow(q.x * 3.0, q.y * 4.0));
-    answers[a + 5u] = vec4(spotCone(q.x, q.y * 5.0, -q.z), levelOfRoughness(q.x, 6.0), roughnessOfLevel(q.y * 5.0, 6.0), 0.0);
+    answers[a + 5u] = vec4(spotCone(q.x, q.y * 5.0, -q.z), levelOfRoughness(q.x, 6.0),
+                           roughnessOfLevel(q.y * 5.0, 6.0), 0.0);
     answers[a + 6u] = vec4(squareFromDirection(d), 0.0, 0.0);
     answers[a + 7u] = vec4(directionFromSquare(q.xy), 0.0);
     answers[a + 8u] = vec4(displayByAgx(exp2(q.xyz * 20.0 - 12.0)), agxContrast(q.w));
-    answers[a + 9u] = vec4(applyLook(displayByPlain(q.xyz), q.w * 2.0, q.x * 2.0), interleavedNoise(floor(q.xy * 2000.0)));
+    answers[a + 9u] = vec4(applyLook(displayByPlain(q.xyz), q.w * 2.0, q.x * 2.0),
+                           interleavedNoise(floor(q.xy * 2000.0)));
 }
 )";
 
@@ -65,7 +68,8 @@ std::vector<Vec4> answersOnCpu(Vec4 in) {
             {square.x, square.y, 0, 0},
             four(directionFromSquare({c.x, c.y}), 0),
             four(displayByAgx(glsl::exp2(c * 20.0f - 12.0f)), agxContrast(w)),
-            four(applyLook(displayByPlain(c), w * 2, c.x * 2), interleavedNoise({std::floor(c.x * 2000), std::floor(c.y * 2000)}))};
+            four(applyLook(displayByPlain(c), w * 2, c.x * 2),
+                 interleavedNoise({std::floor(c.x * 2000), std::floor(c.y * 2000)}))};
 }
 
 class FrameLightFunctions : public test::GlTest {
@@ -81,7 +85,8 @@ protected:
 TEST_F(FrameLightFunctions, AreThoseOfTheCpu) {
     std::vector<Vec4> questions(kCount), answers(std::size_t(kCount) * kAnswers);
     for (std::uint32_t i = 0; i < kCount; ++i)
-        questions[i] = {std::max(randomFloat(1, i), 1e-3f), std::max(randomFloat(2, i), 1e-3f), randomFloat(3, i), randomFloat(4, i)};
+        questions[i] = {std::max(randomFloat(1, i), 1e-3f), std::max(randomFloat(2, i), 1e-3f), randomFloat(3, i),
+                        randomFloat(4, i)};
     auto program = device().programs().get({{"test/ask.comp"}, {}, "ask"});
     ASSERT_TRUE(program) << program.error().message;
     const gl::Buffer in = gl::Buffer::of(device(), std::span<const Vec4>(questions), "questions");
@@ -101,7 +106,8 @@ TEST_F(FrameLightFunctions, AreThoseOfTheCpu) {
             const float* g = &answers[std::size_t(i * kAnswers + a)].x;
             // The noise is a fraction of a number near 10^5, whose steps are 2^-7: it may wrap.
             for (int k = 0; k < (a == 9 ? 3 : 4); ++k)
-                worst[a] = std::max(worst[a], std::abs(double(e[k]) - double(g[k])) / std::max(1.0, std::abs(double(e[k]))));
+                worst[a] =
+                    std::max(worst[a], std::abs(double(e[k]) - double(g[k])) / std::max(1.0, std::abs(double(e[k]))));
         }
     }
     for (int a = 0; a < kAnswers; ++a) EXPECT_LT(worst[a], 1e-4) << "answer " << a;

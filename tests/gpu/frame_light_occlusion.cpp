@@ -22,7 +22,8 @@ protected:
         desc.model = *id;
         ASSERT_TRUE(geometry->addInstance(desc));
         Context& context = patch_->context;
-        context.view = context.previousView = light::makeView(light::cameraLookingAt(eye, target, radians(45)), 256, 192);
+        context.view = context.previousView =
+            light::makeView(light::cameraLookingAt(eye, target, radians(45)), 256, 192);
         context.sampleIndex = sampleIndex;
         ++context.frameIndex;
         geometry->update(context);
@@ -62,12 +63,15 @@ TEST_F(FrameOcclusion, PlanesAreOpen) {
     }
 }
 
-// A floor and a wall that meet at a right angle. At height 0 a floor point at distance d from a wall of height h sees the
-// cosine-weighted fraction 1/2 (1 + d / sqrt(d2 + h2)) of its hemisphere; only walls nearer than the radius count, with a falloff.
+// A floor and a wall that meet at a right angle. At height 0 a floor point at distance d from a wall of height h sees
+// the cosine-weighted fraction 1/2 (1 + d / sqrt(d2 + h2)) of its hemisphere; only walls nearer than the radius count,
+// with a falloff.
 TEST_F(FrameOcclusion, CornersCloseAsFormFactorsSay) {
-    const Model corner = test::modelOf({test::quad({-50, 0, 50}, {100, 0, 0}, {0, 0, -50}), test::quad({-50, 0, 0}, {100, 0, 0}, {0, 50, 0})});
+    const Model corner = test::modelOf(
+        {test::quad({-50, 0, 50}, {100, 0, 0}, {0, 0, -50}), test::quad({-50, 0, 0}, {100, 0, 0}, {0, 50, 0})});
     draw(corner, {0, 1.2f, 2.2f}, {0, 0.1f, 0}, 1.0f);
-    // An endless wall leaves 0.525. The falloff from 0.4 of the radius on brings it to 0.61 (8 slices of 12 steps); 2 of 3 give 0.635.
+    // An endless wall leaves 0.525. The falloff from 0.4 of the radius on brings it to 0.61 (8 slices of 12 steps); 2
+    // of 3 give 0.635.
     EXPECT_GT(openAt({0, 0, 0.05f}), 0.525f);
     EXPECT_LT(openAt({0, 0, 0.05f}), 0.68f);
     EXPECT_GT(openAt({0, 0, 0.4f}), openAt({0, 0, 0.1f}) + 0.1f);
@@ -77,7 +81,8 @@ TEST_F(FrameOcclusion, CornersCloseAsFormFactorsSay) {
 
 // A pillar far in front of a wall does not darken it: no halo around what is nearer by more than the radius.
 TEST_F(FrameOcclusion, SilhouettesHaveNoHalo) {
-    const Model model = test::modelOf({test::quad({-50, -50, 0}, {100, 0, 0}, {0, 100, 0}), test::box({-0.2f, -50, 4}, {0.2f, 50, 4.4f})});
+    const Model model = test::modelOf(
+        {test::quad({-50, -50, 0}, {100, 0, 0}, {0, 100, 0}), test::box({-0.2f, -50, 4}, {0.2f, 50, 4.4f})});
     draw(model, {0, 0, 8}, {0, 0, 0}, 0.5f);
     int dark = 0;
     for (int y = 20; y < 172; ++y)
@@ -86,7 +91,8 @@ TEST_F(FrameOcclusion, SilhouettesHaveNoHalo) {
 }
 
 TEST_F(FrameOcclusion, StrengthScalesAndOffIsOpen) {
-    const Model corner = test::modelOf({test::quad({-50, 0, 50}, {100, 0, 0}, {0, 0, -50}), test::quad({-50, 0, 0}, {100, 0, 0}, {0, 50, 0})});
+    const Model corner = test::modelOf(
+        {test::quad({-50, 0, 50}, {100, 0, 0}, {0, 0, -50}), test::quad({-50, 0, 0}, {100, 0, 0}, {0, 50, 0})});
     draw(corner, {0, 1.2f, 2.2f}, {0, 0.1f, 0}, 1.0f);
     const float full = openAt({0, 0, 0.2f});
     patch_->params.occlusionStrength = 0.5f;
@@ -95,10 +101,16 @@ TEST_F(FrameOcclusion, StrengthScalesAndOffIsOpen) {
     patch_->params.occlusionStrength = 0;
     draw(corner, {0, 1.2f, 2.2f}, {0, 0.1f, 0}, 1.0f);
     EXPECT_EQ(openAt({0, 0, 0.2f}), 1);
+    patch_->params.ambientOcclusion = false;
+    patch_->lighting.setTermsWanted(true);
+    patch_->lighting.prepare(patch_->context, patch_->params, {}, patch_->targets);
+    EXPECT_EQ(readImage(device(), patch_->lighting.occlusion(), 1)->width, 256)
+        << "an open layer where it is off but asked for";
 }
 
 TEST_F(FrameOcclusion, SameInputSameBitsOtherSampleOtherNoise) {
-    const Model model = test::modelOf({test::quad({-50, 0, 50}, {100, 0, 0}, {0, 0, -100}), test::box({-0.5f, 0, -0.5f}, {0.5f, 1, 0.5f})});
+    const Model model = test::modelOf(
+        {test::quad({-50, 0, 50}, {100, 0, 0}, {0, 0, -100}), test::box({-0.5f, 0, -0.5f}, {0.5f, 1, 0.5f})});
     draw(model, {2, 2, 3}, {0, 0.3f, 0}, 1);
     const std::vector<float> first = open_.pixels;
     draw(model, {2, 2, 3}, {0, 0.3f, 0}, 1);

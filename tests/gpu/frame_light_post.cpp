@@ -86,7 +86,7 @@ protected:
     Context context_;
 };
 
-Vec3 constant(float, float) { return {0.1875f, 3.5f, 100}; }   // exact in half floats
+Vec3 constant(float, float) { return {0.1875f, 3.5f, 100}; }  // exact in half floats
 
 // A slanted edge and a bright line thinner than a pixel.
 Vec3 hardScene(float x, float y) {
@@ -102,7 +102,8 @@ double meanDifference(const Image& a, const Image& b) {
 }
 double largestDifference(const Image& a, const Image& b) {
     double largest = 0;
-    for (std::size_t i = 0; i < a.pixels.size(); ++i) largest = std::max(largest, std::abs(double(a.pixels[i]) - double(b.pixels[i])));
+    for (std::size_t i = 0; i < a.pixels.size(); ++i)
+        largest = std::max(largest, std::abs(double(a.pixels[i]) - double(b.pixels[i])));
     return largest;
 }
 
@@ -119,13 +120,14 @@ TEST_F(FramePost, SamplesOfAConstantSumToItExactly) {
 }
 
 TEST_F(FramePost, RadianceIsTheMeanOfTheSamples) {
-    supersample([](float x, float) { return Vec3{x, 0.5f * x, 1}; }, 16);   // linear: the mean is the pixel centre's
+    supersample([](float x, float) { return Vec3{x, 0.5f * x, 1}; }, 16);  // linear: the mean is the pixel centre's
     const Image image = radiance();
     for (int x = 1; x < kWidth; ++x) EXPECT_NEAR(image.at(x, 7)[0], float(x) + 0.5f, 0.02f);
 }
 
 TEST_F(FramePost, BrightEdgesStayGradualOnTheDisplay) {
-    // Half of the pixel's samples are 100 times brighter than white: their linear mean is white still, the weighted one is not.
+    // Half of the pixel's samples are 100 times brighter than white: their linear mean is white still, the weighted one
+    // is not.
     post_->setExpectedExposure(1);
     const Scene scene = [](float x, float) { return x < 20.5f ? Vec3{0.2f, 0.2f, 0.2f} : Vec3{100, 100, 100}; };
     supersample(scene, 16);
@@ -138,7 +140,7 @@ TEST_F(FramePost, BrightEdgesStayGradualOnTheDisplay) {
 
 TEST_F(FramePost, CoverageIsStraightOnTheDisplay) {
     post_->beginAccumulation(kWidth, kHeight);
-    for (int i = 0; i < 4; ++i) {   // a quarter covered by 0.5
+    for (int i = 0; i < 4; ++i) {  // a quarter covered by 0.5
         put([&](float, float) { return i == 0 ? Vec3{0.5f, 0.5f, 0.5f} : Vec3{}; }, i == 0 ? 1.0f : 0.0f);
         post_->accumulate(context_, *targets_);
     }
@@ -175,7 +177,7 @@ TEST_F(FramePost, HistoriesBecomeTheSupersampledPicture) {
     for (int frame = 1; frame < 96; ++frame) temporal(hardScene, frame);
     const Image last = radiance();
     EXPECT_GT(meanDifference(first, expected), 0.02) << "the scene is too easy";
-    EXPECT_LT(meanDifference(last, expected), 0.004);   // 0.0007 measured
+    EXPECT_LT(meanDifference(last, expected), 0.004);  // 0.0007 measured
 }
 
 TEST_F(FramePost, StillViewsDoNotFlicker) {
@@ -202,14 +204,17 @@ TEST_F(FramePost, MovingPicturesAreFollowed) {
     // The picture moves 3 pixels right a frame; the motion buffer says so.
     const float motion[2] = {3, 0};
     glClearTexImage(targets_->gbuffer().motion.name, 0, GL_RG, GL_FLOAT, motion);
-    const auto smooth = [](float x, float y) { return Vec3{0.5f + 0.3f * std::sin(x * 0.4f), 0.5f + 0.2f * std::cos(y * 0.5f), 0.5f}; };
+    const auto smooth = [](float x, float y) {
+        return Vec3{0.5f + 0.3f * std::sin(x * 0.4f), 0.5f + 0.2f * std::cos(y * 0.5f), 0.5f};
+    };
     for (int frame = 0; frame < 12; ++frame)
         temporal([&](float x, float y) { return smooth(x - 3.0f * float(frame), y); }, frame);
     const Image image = radiance();
     double sum = 0;
     for (int y = 4; y < kHeight - 4; ++y)
         for (int x = 4; x < kWidth - 4; ++x)
-            sum += std::abs(double(image.at(x, kHeight - 1 - y)[0]) - double(smooth(float(x) + 0.5f - 33, float(y) + 0.5f).x));
+            sum += std::abs(double(image.at(x, kHeight - 1 - y)[0]) -
+                            double(smooth(float(x) + 0.5f - 33, float(y) + 0.5f).x));
     EXPECT_LT(sum / double((kWidth - 8) * (kHeight - 8)), 0.02);
 }
 
@@ -274,18 +279,24 @@ TEST_F(FramePost, AutomaticExposureIgnoresLampsAndFollowsOverTime) {
     PostParams params = plain("none");
     params.exposureMode = "automatic";
     params.adaptation = 2;
-    supersample([](float x, float y) { return x > 22 && x < 26 && y > 12 && y < 15 ? Vec3{9000, 9000, 9000} : Vec3{1, 1, 1}; }, 1);
+    supersample(
+        [](float x, float y) {
+            return x > 22 && x < 26 && y > 12 && y < 15 ? Vec3{9000, 9000, 9000} : Vec3{1, 1, 1};
+        },
+        1);
     display(params, true);
     const float start = post_->exposure();
     EXPECT_NEAR(std::log2(start / 0.18f), 0, 0.25f);
     supersample([](float, float) { return Vec3{16, 16, 16}; }, 1);
-    context_.timeStep = 2;   // one time constant: 63 % of the way, in stops
+    context_.timeStep = 2;  // one time constant: 63 % of the way, in stops
     display(params, false);
     EXPECT_NEAR(std::log2(start / post_->exposure()), 4 * (1 - std::exp(-1.0f)), 0.3f);
 }
 
 TEST_F(FramePost, BloomKeepsTheSumAndSpreads) {
-    const auto lamp = [](float x, float y) { return std::abs(x - 24) < 2 && std::abs(y - 16) < 2 ? Vec3{0.9f, 0.9f, 0.9f} : Vec3{}; };
+    const auto lamp = [](float x, float y) {
+        return std::abs(x - 24) < 2 && std::abs(y - 16) < 2 ? Vec3{0.9f, 0.9f, 0.9f} : Vec3{};
+    };
     supersample(lamp, 1);
     PostParams params = plain("none");
     const ByteImage sharp = display(params);
@@ -318,10 +329,11 @@ TEST_F(FramePost, ReadingTurnsTheTopRowUp) {
         gl::Enum format;
         int channels;
     };
-    for (const Case c : {Case{GL_RGBA32F, 4}, Case{GL_RGBA16F, 4}, Case{GL_R11F_G11F_B10F, 3}, Case{GL_RG16F, 2}, Case{GL_RG16, 2},
-                         Case{GL_R32F, 1}, Case{GL_R8, 1}, Case{GL_RGBA8, 4}}) {
-        const gl::Texture texture = gl::Texture::create(device(), {.format = c.format, .width = 3, .height = 2, .label = "pattern"});
-        const float rows[24] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1,      // bottom, as GL counts
+    for (const Case c : {Case{GL_RGBA32F, 4}, Case{GL_RGBA16F, 4}, Case{GL_R11F_G11F_B10F, 3}, Case{GL_RG16F, 2},
+                         Case{GL_RG16, 2}, Case{GL_R32F, 1}, Case{GL_R8, 1}, Case{GL_RGBA8, 4}}) {
+        const gl::Texture texture =
+            gl::Texture::create(device(), {.format = c.format, .width = 3, .height = 2, .label = "pattern"});
+        const float rows[24] = {0, 0,    0,     1, 0, 0,    0,     1, 0,     0,    0,     1,  // bottom, as GL counts
                                 1, 0.5f, 0.25f, 1, 1, 0.5f, 0.25f, 1, 0.25f, 0.5f, 0.25f, 1};
         glTextureSubImage2D(texture.name(), 0, 0, 0, 3, 2, GL_RGBA, GL_FLOAT, rows);
         const auto image = readImage(device(), texture, c.channels);
@@ -334,13 +346,15 @@ TEST_F(FramePost, ReadingTurnsTheTopRowUp) {
             EXPECT_EQ(readImage(device(), texture, 1)->channelCount, 1);
         }
     }
-    const gl::Texture ids = gl::Texture::create(device(), {.format = GL_R32UI, .width = 2, .height = 2, .label = "ids"});
+    const gl::Texture ids =
+        gl::Texture::create(device(), {.format = GL_R32UI, .width = 2, .height = 2, .label = "ids"});
     const std::uint32_t values[4] = {1, 2, 70000, 4};
     glTextureSubImage2D(ids.name(), 0, 0, 0, 2, 2, GL_RED_INTEGER, GL_UNSIGNED_INT, values);
     const Image image = *readImage(device(), ids, 1);
     EXPECT_EQ(image.at(0, 0)[0], 70000);
     EXPECT_EQ(image.at(1, 1)[0], 2);
-    const gl::Texture bytes = gl::Texture::create(device(), {.format = GL_RGBA8, .width = 1, .height = 2, .label = "bytes"});
+    const gl::Texture bytes =
+        gl::Texture::create(device(), {.format = GL_RGBA8, .width = 1, .height = 2, .label = "bytes"});
     const std::uint8_t pixels[8] = {1, 2, 3, 4, 5, 6, 7, 8};
     glTextureSubImage2D(bytes.name(), 0, 0, 0, 1, 2, GL_RGBA, GL_UNSIGNED_BYTE, pixels);
     EXPECT_EQ(readByteImage(device(), bytes)->pixels, (std::vector<std::uint8_t>{5, 6, 7, 8, 1, 2, 3, 4}));
@@ -348,7 +362,8 @@ TEST_F(FramePost, ReadingTurnsTheTopRowUp) {
 
 TEST_F(FramePost, ReadingSaysWhatItCannot) {
     EXPECT_FALSE(readImage(device(), {}, 1));
-    const gl::Texture texture = gl::Texture::create(device(), {.format = GL_R8, .width = 1, .height = 1, .label = "one"});
+    const gl::Texture texture =
+        gl::Texture::create(device(), {.format = GL_R8, .width = 1, .height = 1, .label = "one"});
     const auto tooMany = readImage(device(), texture, 4);
     ASSERT_FALSE(tooMany);
     EXPECT_NE(tooMany.error().message.find("4 channels"), std::string::npos) << tooMany.error().message;

@@ -1,4 +1,5 @@
-// A G-buffer of one surface that fills the picture, written without drawing anything: what lighting does to it has a known answer.
+// A G-buffer of one surface that fills the picture, written without drawing anything: what lighting does to it has a
+// known answer.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -18,15 +19,15 @@
 namespace shoal::test {
 
 struct Patch {
-    Vec3 normal{0, 0, 1};        // world
+    Vec3 normal{0, 0, 1};  // world
     Vec3 baseColor{1, 1, 1};
     float roughness = 1, metallic = 0, f0 = 0;
     Vec3 emission{0, 0, 0};
     std::uint32_t flags = 0;
-    float viewDepth = 0;         // metres; 0: nothing there
+    float viewDepth = 0;  // metres; 0: nothing there
 };
 
-inline Vec3 storedBaseColor(Vec3 c) {   // as 8 bits keep it
+inline Vec3 storedBaseColor(Vec3 c) {  // as 8 bits keep it
     const auto one = [](float x) {
         const float s = std::round(std::sqrt(x) * 255) / 255;
         return s * s;
@@ -70,7 +71,8 @@ public:
             fill(g.emission, Vec4{patch.emission.x, patch.emission.y, patch.emission.z, 0});
         }
         const Mat4& p = context.view.clipFromView;
-        const float z = -patch.viewDepth, depth = patch.viewDepth > 0 ? (p(2, 2) * z + p(2, 3)) / (p(3, 2) * z + p(3, 3)) : 0;
+        const float z = -patch.viewDepth,
+                    depth = patch.viewDepth > 0 ? (p(2, 2) * z + p(2, 3)) / (p(3, 2) * z + p(3, 3)) : 0;
         glClearTexImage(g.depth.name, 0, GL_DEPTH_COMPONENT, GL_FLOAT, &depth);
         targets.finishSurfaces(context);
     }
@@ -82,7 +84,7 @@ public:
         lighting.shade(context, params, shadows, overrides, targets);
         return at(context.view.width / 2, context.view.height / 2);
     }
-    Vec4 at(int x, int y) {   // from the top
+    Vec4 at(int x, int y) {  // from the top
         const Image image = *frame::readImage(*context.device, targets.radiance(), 4);
         const float* p = image.at(x, y);
         return {p[0], p[1], p[2], p[3]};

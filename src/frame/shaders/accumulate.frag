@@ -1,7 +1,7 @@
 #version 450 core
-// One sample of a supersampled picture, added to two sums: the linear radiance, and the radiance weighted so that no sample outshines
-// the others by more than the display can show [Karis 2014, "High Quality Temporal Supersampling"]: edges of bright things stay
-// smooth. a: coverage, and the sum of weights.
+// One sample of a supersampled picture, added to two sums: the linear radiance, and the radiance weighted so that no
+// sample outshines the others by more than the display can show [Karis 2014, "High Quality Temporal Supersampling"]:
+// edges of bright things stay smooth. a: coverage, and the sum of weights.
 #include "frame/bindings.shared.h"
 #include "frame/exposure.io.glsl"
 

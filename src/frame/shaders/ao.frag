@@ -1,7 +1,9 @@
 #version 450 core
-// Ambient occlusion at half resolution: how much of the cosine-weighted hemisphere is open, from horizons in the view depth.
-// Sources: [Jimenez et al. 2016] Practical Realtime Strategies for Accurate Indirect Occlusion (GTAO); the distance falloff towards
-// the surface's own horizon follows XeGTAO (Intel, 2021). The noise depends on the pixel and the sample alone.
+// Ambient occlusion at half resolution: how much of the cosine-weighted hemisphere is open, from horizons in the view
+// depth.
+// Sources: [Jimenez et al. 2016] Practical Realtime Strategies for Accurate Indirect Occlusion (GTAO); the distance
+// falloff towards the surface's own horizon follows XeGTAO (Intel, 2021). The noise depends on the pixel and the sample
+// alone.
 // Writes (open fraction, view depth).
 #include "frame/bindings.shared.h"
 #include "frame/gbuffer.lib.glsl"
@@ -9,8 +11,10 @@
 layout(binding = SHOAL_UNIT_PASS + 1) uniform sampler2D normalTexture;
 layout(binding = SHOAL_UNIT_PASS + 4) uniform sampler2D viewDepthTexture;
 layout(location = 0) uniform vec4 pixelToView;    // view xy at depth 1 (orthographic: at any depth) = pixel * xy + zw
-layout(location = 1) uniform vec4 shape;          // x: radius m, y: pixels a metre at depth 1, z: 1 orthographic, w: noise turn in [0, 1)
-layout(location = 2) uniform vec4 falloff;        // x, y: weight of a sample at distance d is d * x + y; z, w: width, height
+// x: radius m, y: pixels a metre at depth 1, z: 1 orthographic, w: noise turn in [0, 1)
+layout(location = 1) uniform vec4 shape;
+// x, y: weight of a sample at distance d is d * x + y; z, w: width, height
+layout(location = 2) uniform vec4 falloff;
 layout(location = 3) uniform mat4 viewFromWorld;
 
 layout(location = 0) out vec2 outOpen;
@@ -33,8 +37,9 @@ vec3 viewPosition(vec2 pixel, float depth) {
     return vec3((pixel * pixelToView.xy + pixelToView.zw) * mix(depth, 1.0, shape.z), -depth);
 }
 
-// The cosine of the horizon on one side of the slice, raised by a sample at `pixel`. Samples less than some 2 degrees above the surface's
-// plane do not count: rounded to whole pixels they lie beside the slice, and the facets of round things are no creases.
+// The cosine of the horizon on one side of the slice, raised by a sample at `pixel`. Samples less than some 2 degrees
+// above the surface's plane do not count: rounded to whole pixels they lie beside the slice, and the facets of round
+// things are no creases.
 float raised(float horizon, float least, vec2 pixel, vec3 position, vec3 toEye, vec3 normal) {
     ivec2 at = clamp(ivec2(pixel), ivec2(0), ivec2(falloff.zw) - 1);
     float depth = texelFetch(viewDepthTexture, at, 0).x;
@@ -94,6 +99,7 @@ void main() {
         open += 0.25 * arc * projectedLength;
         all += (cosNormal + n * sinNormal) * projectedLength;   // the same with nothing in the way
     }
-    // A few slices of an open plane sum to 1 only together with those of the pixels around: what counts is how much of them is left.
+    // A few slices of an open plane sum to 1 only together with those of the pixels around: what counts is how much of
+    // them is left.
     outOpen = vec2(depth > 0.0 ? open / max(all, 1e-4) : 1.0, depth);
 }

@@ -1,9 +1,11 @@
 #version 450 core
-// Averages the 4 x 4 tile of noise at half resolution over pixels of the same surface. Reads and writes (open fraction, view depth).
+// Averages the 4 x 4 tile of noise at half resolution over pixels of the same surface. Reads and writes (open fraction,
+// view depth).
 #include "frame/bindings.shared.h"
 
 layout(binding = SHOAL_UNIT_PASS) uniform sampler2D openTexture;
-layout(location = 0) uniform vec4 tolerance;   // x: depth difference, as a part of the depth, at which a neighbour counts no more
+// x: depth difference, as a part of the depth, at which a neighbour counts no more
+layout(location = 0) uniform vec4 tolerance;
 
 layout(location = 0) out vec2 outOpen;
 
@@ -11,9 +13,12 @@ void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
     ivec2 last = textureSize(openTexture, 0) - 1;
     vec2 own = texelFetch(openTexture, at, 0).xy;
-    // Slopes of the surface in depth, from the smaller of the two differences on each axis: silhouettes do not tilt the plane.
-    float left = texelFetch(openTexture, max(at - ivec2(1, 0), ivec2(0)), 0).y, right = texelFetch(openTexture, min(at + ivec2(1, 0), last), 0).y;
-    float below = texelFetch(openTexture, max(at - ivec2(0, 1), ivec2(0)), 0).y, above = texelFetch(openTexture, min(at + ivec2(0, 1), last), 0).y;
+    // Slopes of the surface in depth, from the smaller of the two differences on each axis: silhouettes do not tilt the
+    // plane.
+    float left = texelFetch(openTexture, max(at - ivec2(1, 0), ivec2(0)), 0).y;
+    float right = texelFetch(openTexture, min(at + ivec2(1, 0), last), 0).y;
+    float below = texelFetch(openTexture, max(at - ivec2(0, 1), ivec2(0)), 0).y;
+    float above = texelFetch(openTexture, min(at + ivec2(0, 1), last), 0).y;
     float dx = abs(right - own.y) < abs(own.y - left) ? right - own.y : own.y - left;
     float dy = abs(above - own.y) < abs(own.y - below) ? above - own.y : own.y - below;
     float sharpness = 1.0 / (tolerance.x * max(own.y, 1e-4));

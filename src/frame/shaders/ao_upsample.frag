@@ -1,6 +1,6 @@
 #version 450 core
-// Occlusion at full resolution: of the four nearest half-resolution values those count that lie at the pixel's depth. Drawn with
-// fullscreen.vert and depth test LESS.
+// Occlusion at full resolution: of the four nearest half-resolution values those count that lie at the pixel's depth.
+// Drawn with fullscreen.vert and depth test LESS.
 #include "frame/bindings.shared.h"
 
 layout(binding = SHOAL_UNIT_PASS) uniform sampler2D openTexture;

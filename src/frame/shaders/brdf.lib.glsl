@@ -7,8 +7,9 @@
 //   [Fdez-Aguera 2019; Turquin 2019] multiple scattering as a gain on the single-scattering lobe.
 //   [Jimenez et al. 2016] Practical Realtime Strategies for Accurate Indirect Occlusion (colour of interreflection).
 //   KHR_lights_punctual (Khronos): range window and cone.
-// Departs: the split sum is our own rational fit. Against quadrature of the height-correlated lobe on 39 roughnesses x 50 angles the
-// fit of [Karis 2014] (made for another masking term) is off by up to 0.47, this one by 0.030 (f0 = 1) and 0.013 (f0 = 0).
+// Departs: the split sum is our own rational fit. Against quadrature of the height-correlated lobe on 39 roughnesses x
+// 50 angles the fit of [Karis 2014] (made for another masking term) is off by up to 0.47, this one by 0.030 (f0 = 1)
+// and 0.013 (f0 = 0).
 #ifndef SHOAL_FRAME_BRDF_LIB_GLSL
 #define SHOAL_FRAME_BRDF_LIB_GLSL
 
@@ -40,7 +41,8 @@ SHOAL_FUNCTION float visibilitySmith(float nDotV, float nDotL, float alpha) {
     return 0.5f / max(v + l, 1e-6f);
 }
 
-// Reflectance at grazing angles: 1, but for materials that reflect less than any real one (f0 < 0.02), down to none for f0 = 0.
+// Reflectance at grazing angles: 1, but for materials that reflect less than any real one (f0 < 0.02), down to none for
+// f0 = 0.
 SHOAL_FUNCTION float grazingReflectance(vec3 f0) { return clamp(max(f0.x, max(f0.y, f0.z)) * 50.0f, 0.0f, 1.0f); }
 
 SHOAL_FUNCTION vec3 fresnelSchlick(vec3 f0, float f90, float vDotH) {
@@ -52,11 +54,15 @@ SHOAL_FUNCTION vec3 fresnelSchlick(vec3 f0, float f90, float vDotH) {
 SHOAL_FUNCTION vec2 splitSum(float nDotV, float roughness) {
     float m = nDotV;
     float r = roughness;
-    float lost = r * (0.3834f + r * (-3.592f + 4.9324f * r) + m * (19.211f + r * (-12.7966f + 43.9748f * r) + m * (-53.6012f + 114.3172f * r))) /
+    float lost = r *
+                 (0.3834f + r * (-3.592f + 4.9324f * r) +
+                  m * (19.211f + r * (-12.7966f + 43.9748f * r) + m * (-53.6012f + 114.3172f * r))) /
                  (1.0f + r * (-15.5781f + 42.8849f * r) + m * (34.305f + 20.0598f * r + 76.484f * m));
     float s = sqrt(m);
     float q = 1.0f - m;
-    float grazing = q * q * (0.9577f + r * (1.131f - 1.4457f * r) + s * (-0.3934f + r * (-5.5275f + 3.7556f * r) + s * (-0.3413f + 2.6918f * r))) /
+    float grazing = q * q *
+                    (0.9577f + r * (1.131f - 1.4457f * r) +
+                     s * (-0.3934f + r * (-5.5275f + 3.7556f * r) + s * (-0.3413f + 2.6918f * r))) /
                     (1.0f + r * (3.534f + 11.3957f * r) + s * (-1.4939f - 16.5367f * r + 5.9607f * s));
     float all = clamp(1.0f - lost, 0.05f, 1.0f);
     grazing = clamp(grazing, 0.0f, all);
@@ -64,19 +70,23 @@ SHOAL_FUNCTION vec2 splitSum(float nDotV, float roughness) {
 }
 
 // What multiple scattering between microfacets adds, as a factor on the single-scattering lobe; split: splitSum().
-SHOAL_FUNCTION vec3 multipleScattering(vec3 f0, vec2 split) { return vec3(1.0f) + f0 * (1.0f / (split.x + split.y) - 1.0f); }
+SHOAL_FUNCTION vec3 multipleScattering(vec3 f0, vec2 split) {
+    return vec3(1.0f) + f0 * (1.0f / (split.x + split.y) - 1.0f);
+}
 
 // The lobe's albedo, multiple scattering included: 1 for f0 = 1.
 SHOAL_FUNCTION vec3 specularAlbedo(vec3 f0, float f90, vec2 split) {
     return (f0 * split.x + vec3(f90 * split.y)) * multipleScattering(f0, split);
 }
 
-// Reflected part of the environment that occluders of the diffuse hemisphere leave [Lagarde & de Rousiers 2014, listing 26].
+// Reflected part of the environment that occluders of the diffuse hemisphere leave [Lagarde & de Rousiers 2014, listing
+// 26].
 SHOAL_FUNCTION float specularOcclusion(float nDotV, float occlusion, float roughness) {
     return clamp(pow(nDotV + occlusion, exp2(-16.0f * roughness - 1.0f)) - 1.0f + occlusion, 0.0f, 1.0f);
 }
 
-// Occlusion with the light that the occluders themselves send back, for a surface among its own colour [Jimenez et al. 2016].
+// Occlusion with the light that the occluders themselves send back, for a surface among its own colour [Jimenez et al.
+// 2016].
 SHOAL_FUNCTION vec3 interreflection(float occlusion, vec3 albedo) {
     vec3 a = albedo * 2.0404f - 0.3324f;
     vec3 b = albedo * -4.7951f + 0.6417f;
@@ -107,7 +117,8 @@ SHOAL_FUNCTION float roughnessOfLevel(float level, float levelCount) {
     return (1.7f - sqrt(max(2.89f - 2.8f * t, 0.0f))) / 1.4f;
 }
 
-// Direction (y up) to the square [0, 1]^2 of the prefiltered environment, and back. The square's border is where the lower half folds.
+// Direction (y up) to the square [0, 1]^2 of the prefiltered environment, and back. The square's border is where the
+// lower half folds.
 SHOAL_FUNCTION vec2 squareFromDirection(vec3 d) {
     float scale = 1.0f / (abs(d.x) + abs(d.y) + abs(d.z));
     float x = d.x * scale;

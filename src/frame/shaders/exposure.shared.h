@@ -7,9 +7,9 @@
 #endif
 
 #define SHOAL_EXPOSURE_BINS 128
-#define SHOAL_EXPOSURE_LOWEST -20.0     // log2 of the luminance of the first bin's lower end, W/(m2 sr)
+#define SHOAL_EXPOSURE_LOWEST -20.0  // log2 of the luminance of the first bin's lower end, W/(m2 sr)
 #define SHOAL_EXPOSURE_STOPS_A_BIN 0.3125
-#define SHOAL_EXPOSURE_STRIDE 4         // every 4th pixel of every 4th row is counted
+#define SHOAL_EXPOSURE_STRIDE 4  // every 4th pixel of every 4th row is counted
 
 #ifdef __cplusplus
 namespace shoal::frame {

@@ -1,10 +1,12 @@
 #version 450 core
-// One thread turns the histogram into an exposure: the mean log luminance between two percentiles becomes middle grey. The darkest
-// half hardly matters to what a photographer exposes for, and the brightest 2 % (lamps, the sun) must not darken the rest.
+// One thread turns the histogram into an exposure: the mean log luminance between two percentiles becomes middle grey.
+// The darkest half hardly matters to what a photographer exposes for, and the brightest 2 % (lamps, the sun) must not
+// darken the rest.
 #include "frame/exposure.io.glsl"
 
 layout(local_size_x = 1) in;
-layout(location = 0) uniform vec4 rate;   // x: fraction of the way to go this time, y: 1 forgets the past, z: 1 sets `antialiasing`
+// x: fraction of the way to go this time, y: 1 forgets the past, z: 1 sets `antialiasing`
+layout(location = 0) uniform vec4 rate;
 
 const float kLowPercentile = 0.40;
 const float kHighPercentile = 0.98;

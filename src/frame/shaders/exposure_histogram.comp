@@ -1,5 +1,6 @@
 #version 450 core
-// Counts pixels by log2 luminance. Integer sums: the same bits whatever the order. Pixels without anything (a = 0) do not count.
+// Counts pixels by log2 luminance. Integer sums: the same bits whatever the order. Pixels without anything (a = 0) do
+// not count.
 #include "frame/exposure.io.glsl"
 
 layout(local_size_x = 16, local_size_y = 8) in;

@@ -6,8 +6,11 @@
 
 layout(std430, binding = SHOAL_STORAGE_LIGHTS) readonly buffer LocalLights { LocalLight localLights[]; };
 
-layout(binding = SHOAL_UNIT_ENVIRONMENT) uniform sampler2D sharpEnvironment;      // lat-long, mip-mapped
-layout(binding = SHOAL_UNIT_SPECULAR) uniform sampler2D prefilteredEnvironment;   // square (brdf.lib.glsl), a roughness a mip level
-layout(binding = SHOAL_UNIT_AO) uniform sampler2D occlusionTexture;               // 1 open
+// Lat-long, mip-mapped.
+layout(binding = SHOAL_UNIT_ENVIRONMENT) uniform sampler2D sharpEnvironment;
+// On the square of brdf.lib.glsl, a roughness a mip level.
+layout(binding = SHOAL_UNIT_SPECULAR) uniform sampler2D prefilteredEnvironment;
+// 1 open.
+layout(binding = SHOAL_UNIT_AO) uniform sampler2D occlusionTexture;
 
 #endif

@@ -8,7 +8,8 @@
 #ifdef BLOOM
 layout(binding = SHOAL_UNIT_PASS + 2) uniform sampler2D bloomTexture;   // half resolution, linear filter
 #endif
-layout(location = 0) uniform vec4 exposure;   // x: factor, y: 1 multiplies the measured exposure in, z: bloom, w: unused
+// x: factor, y: 1 multiplies the measured exposure in, z: bloom
+layout(location = 0) uniform vec4 exposure;
 layout(location = 1) uniform vec4 look;       // x: saturation, y: contrast
 
 layout(location = 0) out vec4 outDisplay;

@@ -1,7 +1,7 @@
 #version 450 core
 // Shades the G-buffer's surfaces. Drawn with fullscreen.vert and depth test LESS.
-// Variants: NO_SUN, NO_LOCAL_LIGHTS (shading.lib.glsl); SUN_IRRADIANCE takes LightOverrides::sunIrradiance; TERMS writes what the AOVs
-// "direct" and "shadow" show.
+// Variants: NO_SUN, NO_LOCAL_LIGHTS (shading.lib.glsl); SUN_IRRADIANCE takes LightOverrides::sunIrradiance; TERMS
+// writes what the AOVs "direct" and "shadow" show.
 #include "frame/shadow.io.glsl"
 #include "frame/shading.lib.glsl"
 #include "frame/gbuffer.lib.glsl"

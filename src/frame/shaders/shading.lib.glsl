@@ -1,7 +1,8 @@
-// Radiance of a surface: sun, local lights and environment. Include shadow.io.glsl (sunVisibility, spotVisibility) before it.
+// Radiance of a surface: sun, local lights and environment. Include shadow.io.glsl (sunVisibility, spotVisibility)
+// before it.
 // Sources: brdf.lib.glsl; [Karis 2013] for the disc of the sun as a wider lobe.
-// NO_SUN and NO_LOCAL_LIGHTS leave those out at compile time: llvmpipe runs both sides of an `if` (at 1280x720 on 2 cores the sun's
-// shadow is 90 ms and a loop over no local lights 13 ms of time for nothing).
+// NO_SUN and NO_LOCAL_LIGHTS leave those out at compile time: llvmpipe runs both sides of an `if` (at 1280x720 on 2
+// cores the sun's shadow is 90 ms and a loop over no local lights 13 ms of time for nothing).
 #ifndef SHOAL_FRAME_SHADING_LIB_GLSL
 #define SHOAL_FRAME_SHADING_LIB_GLSL
 
@@ -58,7 +59,8 @@ Lobes lobesOf(Surface s, vec3 toEye) {
     return l;
 }
 
-// Radiance per irradiance on the surface's own plane (BRDF) for light from toLight; widening: added to alpha for sources with a size.
+// Radiance per irradiance on the surface's own plane (BRDF) for light from toLight; widening: added to alpha for
+// sources with a size.
 vec3 reflectance(Lobes l, vec3 toLight, float nDotL, float widening) {
     vec3 h = normalize(toLight + l.toEye);
     float nDotH = clamp(dot(l.normal, h), 0.0, 1.0);
@@ -77,8 +79,8 @@ vec3 environmentIrradianceOverPi(vec3 n) {
     return max(e, vec3(0.0));
 }
 
-// Prefiltered radiance around a direction. Neighbouring levels are blended here, not by the sampler: each level's border texels lie
-// exactly on the fold, so that coordinates differ from level to level.
+// Prefiltered radiance around a direction. Neighbouring levels are blended here, not by the sampler: each level's
+// border texels lie exactly on the fold, so that coordinates differ from level to level.
 vec3 prefilteredRadiance(vec3 direction, float level) {
     vec2 square = squareFromDirection(direction);
     float low = min(floor(level), lightBlock.environment.y - 2.0);
@@ -97,7 +99,8 @@ vec3 environmentTerm(Lobes l, vec3 baseColor, float ambientOcclusion) {
     vec3 mirrored = reflect(-l.toEye, l.normal);
     float lean = (1.0 - l.alpha) * (sqrt(1.0 - l.alpha) + l.alpha);
     vec3 direction = mix(l.normal, mirrored, lean);
-    vec3 around = prefilteredRadiance(direction, levelOfRoughness(l.roughness, lightBlock.environment.y)) * lightBlock.environment.x;
+    float level = levelOfRoughness(l.roughness, lightBlock.environment.y);
+    vec3 around = prefilteredRadiance(direction, level) * lightBlock.environment.x;
     float open = specularOcclusion(l.nDotV, ambientOcclusion, l.roughness);
     return diffuse + around * l.specular * open;
 }
@@ -111,7 +114,8 @@ vec3 localLightTerm(Lobes l, vec3 position, vec3 shadowNormal) {
         float away = max(length(toLight), 1e-6);
         toLight /= away;
         float nDotL = dot(l.normal, toLight);
-        float reach = rangeWindow(away, light.position.w) * spotCone(-dot(light.direction.xyz, toLight), light.cone.x, light.cone.y);
+        float cosAxis = -dot(light.direction.xyz, toLight);
+        float reach = rangeWindow(away, light.position.w) * spotCone(cosAxis, light.cone.x, light.cone.y);
         if (nDotL <= 0.0 || reach <= 0.0) continue;
         float nearest = max(away, light.direction.w);
         float visible = light.intensity.w < 0.0 ? 1.0 : spotVisibility(int(light.intensity.w), position, shadowNormal);
@@ -130,7 +134,9 @@ ShadingTerms shadeTerms(Surface s, vec3 toEye, float viewDepth, vec2 pixel, floa
 #ifndef NO_SUN
     if (lightBlock.toSun.w > 0.0) {
         float nDotL = clamp(dot(l.normal, lightBlock.toSun.xyz), 0.0, 1.0);
-        t.sunVisible = nDotL > 0.0 ? sunVisibility(s.position, s.normal, viewDepth, pixel) : 0.0;
+        bool shadowed = lightBlock.sunDisc.w > 0.0;
+        t.sunVisible = shadowed ? sunVisibility(s.position, s.normal, viewDepth, pixel) : 1.0;
+        if (nDotL <= 0.0) t.sunVisible = 0.0;
         vec3 irradiance = sunOwn.a > 0.0 ? sunOwn.rgb : lightBlock.sunIrradiance.rgb * (nDotL * t.sunVisible);
         t.sun = irradiance * reflectance(l, lightBlock.toSun.xyz, max(nDotL, 0.05), lightBlock.sunIrradiance.w);
     }
@@ -144,7 +150,8 @@ ShadingTerms shadeTerms(Surface s, vec3 toEye, float viewDepth, vec2 pixel, floa
     return t;
 }
 
-// Radiance to the eye, W/(m2 sr). toEye unit; viewDepth m; pixel: gl_FragCoord.xy; ambientOcclusion in screen space, 1 open.
+// Radiance to the eye, W/(m2 sr). toEye unit; viewDepth m; pixel: gl_FragCoord.xy; ambientOcclusion in screen space, 1
+// open.
 vec3 shadeSurface(Surface s, vec3 toEye, float viewDepth, vec2 pixel, float ambientOcclusion) {
     ShadingTerms t = shadeTerms(s, toEye, viewDepth, pixel, ambientOcclusion, vec4(0.0));
     return t.sun + t.local + t.environment;

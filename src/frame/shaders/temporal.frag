@@ -1,9 +1,12 @@
 #version 450 core
-// Temporal antialiasing: the history, fetched from where the surface was, confined to what is likely here, blended with this frame.
-// Sources: [Karis 2014] High Quality Temporal Supersampling; [Salvi 2016] An Excursion in Temporal Supersampling (variance clipping);
+// Temporal antialiasing: the history, fetched from where the surface was, confined to what is likely here, blended with
+// this frame.
+// Sources: [Karis 2014] High Quality Temporal Supersampling; [Salvi 2016] An Excursion in Temporal Supersampling
+// (variance clipping);
 // [Jimenez 2016] Filmic SMAA (Catmull-Rom in 5 fetches).
-// Departs: the history also carries the variance of the pixel's own luminance over time, which widens the clipping box. A detail
-// that only some jitters hit is so kept on a still view, where the box of a frame that misses it would wipe it out and flicker.
+// Departs: the history also carries the variance of the pixel's own luminance over time, which widens the clipping box.
+// A detail that only some jitters hit is so kept on a still view, where the box of a frame that misses it would wipe it
+// out and flicker.
 // Blending happens on c w(c), w = displayWeight: what a supersampled picture shows is the limit.
 #include "frame/bindings.shared.h"
 #include "frame/exposure.io.glsl"
@@ -14,7 +17,8 @@ layout(binding = SHOAL_UNIT_PASS + 2) uniform sampler2D motionTexture;
 layout(binding = SHOAL_UNIT_PASS + 3) uniform sampler2D historyTexture;          // linear filter
 layout(binding = SHOAL_UNIT_PASS + 4) uniform sampler2D historyMomentsTexture;   // linear filter
 layout(location = 0) uniform vec4 frame;          // x: 1 drops the history, yz: 1 / size, w: unused
-layout(location = 1) uniform vec4 behind;         // previous clip xyw of what lies at infinity in pixel p: behind + p.x behindX + p.y behindY
+// Previous clip xyw of what lies at infinity in pixel p: behind + p.x behindX + p.y behindY.
+layout(location = 1) uniform vec4 behind;
 layout(location = 2) uniform vec4 behindX;
 layout(location = 3) uniform vec4 behindY;
 
@@ -33,7 +37,8 @@ vec3 unweighted(vec3 t) { return t / (exposureState.antialiasing * max(1.0 - lum
 vec3 toYcc(vec3 c) { return vec3(luminanceOf(c), 0.5 * (c.r - c.b), -0.25 * c.r + 0.5 * c.g - 0.25 * c.b); }
 vec3 fromYcc(vec3 y) { return vec3(y.x) + vec3(0.8596, -0.1404, -1.1404) * y.y + vec3(-1.4304, 0.5696, -1.4304) * y.z; }
 
-// Where this pixel's surface was, in pixels back. The nearest of the pixels around decides, so that edges move with what is in front.
+// Where this pixel's surface was, in pixels back. The nearest of the pixels around decides, so that edges move with
+// what is in front.
 vec2 motionAt(ivec2 at, ivec2 last) {
     ivec2 nearest = at;
     float depth = texelFetch(viewDepthTexture, at, 0).x;
@@ -99,7 +104,8 @@ void main() {
     // A thousandth of a pixel is the rounding of 16-bit motion: such a pixel stands still and is fetched as it is.
     bool still = dot(motion, motion) < 1e-6;
     vec4 before = still ? texelFetch(historyTexture, at, 0) : historyAt(from);
-    vec2 moments = still ? texelFetch(historyMomentsTexture, at, 0).xy : textureLod(historyMomentsTexture, fromUv, 0.0).xy;
+    vec2 moments =
+        still ? texelFetch(historyMomentsTexture, at, 0).xy : textureLod(historyMomentsTexture, fromUv, 0.0).xy;
     vec3 past = toYcc(weighted(before.rgb));
     float age = seen ? moments.x * 256.0 : 0.0;
 

@@ -1,7 +1,7 @@
 // From exposed linear Rec.709 radiance to display values in [0, 1]. Compiled by C++ too.
 // Sources:
-//   AgX, T. Sobotka, github.com/sobotka/AgX: the inset matrix, the range of 16.5 stops around middle grey and the contrast curve
-//   (a sigmoid with slope 2 and powers 3 and 3.25 about (20/33, 1/2)) of its OpenColorIO configuration.
+//   AgX, T. Sobotka, github.com/sobotka/AgX: the inset matrix, the range of 16.5 stops around middle grey and the
+//   contrast curve (a sigmoid with slope 2 and powers 3 and 3.25 about (20/33, 1/2)) of its OpenColorIO configuration.
 //   Its display is a pure power of 2.2, so what leaves the outset matrix is a display value already.
 //   IEC 61966-2-1 for sRGB.
 #ifndef SHOAL_FRAME_TONEMAP_LIB_GLSL
