@@ -89,6 +89,7 @@ void State::addDraws(int index) {
             draw.node = int(n);
             draw.firstIndex = p.firstIndex, draw.indexCount = p.indexCount, draw.baseVertex = p.firstVertex;
             draw.material = p.material;
+            hasTransparent |= materials.at(p.material).transparent;
             draws.push_back(draw);
             drawPrimitives.push_back(&p);
             // A skin asks for a node that has one; without it the bind pose is drawn where the node is.

@@ -147,7 +147,6 @@ void State::rebuild() {
     for (GeometryInstance& instance : instances) placePoseRows(instance, models[std::size_t(instance.desc.model)], poseRowCount);
     poseRows.resize(poseRowCount);
     records.resize(draws.size());
-    hasTransparent = false;
     for (std::size_t d = 0; d < draws.size(); ++d) {
         Draw& draw = draws[d];
         const GeometryInstance& instance = instances[std::size_t(draw.instance)];
@@ -155,7 +154,6 @@ void State::rebuild() {
         draw.transparent = material.transparent;
         draw.castsShadow = instance.desc.castsShadow && material.castsShadow;
         draw.visible = instance.desc.visible;
-        hasTransparent |= draw.transparent;
         records[d].material = std::uint32_t(draw.material);
         records[d].objectId = instance.desc.objectId;
         records[d].tint = instance.desc.tint;
@@ -214,7 +212,10 @@ void State::update(const Context& context) {
         const bool moved = instance.poseChanged || instance.transformChanged || instance.fresh;
         if (moved) instance.movingUpdates = 2;
         const bool active = instance.movingUpdates > 0;
-        for (std::uint32_t j = 0; j < instance.jobCount; ++j) jobs[instance.firstJob + j].active = active;
+        for (std::uint32_t j = 0; j < instance.jobCount; ++j) {
+            jobs[instance.firstJob + j].active = active;
+            jobs[instance.firstJob + j].fresh = instance.fresh;
+        }
         anyActive |= active && instance.jobCount > 0;
         if (!active) continue;
         --instance.movingUpdates;
@@ -235,7 +236,7 @@ void State::update(const Context& context) {
     stats.skinnedVertices = 0;
     for (const SkinJob& job : jobs)
         if (job.active) stats.skinnedVertices += job.primitive->vertexCount;
-    if (anyActive) skinner.run(jobs, poseRows, meshes, rebuilt);
+    if (anyActive) skinner.run(jobs, poseRows, meshes);
 }
 
 }  // namespace shoal::frame

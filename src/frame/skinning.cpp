@@ -70,24 +70,35 @@ void Skinner::rebuild(std::span<SkinJob> jobs, std::size_t poseRowCount, const M
     }
 }
 
-void Skinner::run(std::span<const SkinJob> jobs, std::span<const Vec4> poseRows, const MeshStore& store, bool both) {
+template <class Wanted>
+void Skinner::gatherChunks(std::span<const SkinJob> jobs, const Wanted& wanted) {
+    chunks_.clear();
+    for (const SkinJob& job : jobs)
+        if (wanted(job)) appendChunks(job, chunks_);
+    if (!chunks_.empty()) chunkBuffer_.write(0, std::as_bytes(std::span<const SkinChunk>(chunks_)));
+}
+
+void Skinner::run(std::span<const SkinJob> jobs, std::span<const Vec4> poseRows, const MeshStore& store) {
     if (vertexCount_ == 0) return;
     current_ = 1 - current_;
-    bool sameJobs = activeBefore_.size() == jobs.size();
-    for (std::size_t i = 0; sameJobs && i < jobs.size(); ++i) sameJobs = activeBefore_[i] == jobs[i].active;
+    bool sameJobs = activeBefore_.size() == jobs.size(), anyFresh = false;
+    for (std::size_t i = 0; i < jobs.size(); ++i) {
+        sameJobs = sameJobs && activeBefore_[i] == jobs[i].active;
+        anyFresh |= jobs[i].active && jobs[i].fresh;
+    }
     if (!sameJobs) {
-        chunks_.clear();
+        gatherChunks(jobs, [](const SkinJob& job) { return job.active; });
         activeBefore_.resize(jobs.size());
-        for (std::size_t i = 0; i < jobs.size(); ++i) {
-            activeBefore_[i] = jobs[i].active;
-            if (jobs[i].active) appendChunks(jobs[i], chunks_);
-        }
-        if (!chunks_.empty()) chunkBuffer_.writeAll(std::span<const SkinChunk>(chunks_));
+        for (std::size_t i = 0; i < jobs.size(); ++i) activeBefore_[i] = jobs[i].active;
     }
     if (chunks_.empty()) return;
-    pose_.writeAll(poseRows);
+    pose_.write(0, std::as_bytes(poseRows));
     dispatch(current_, store);
-    if (both) dispatch(1 - current_, store);
+    if (anyFresh) {
+        gatherChunks(jobs, [](const SkinJob& job) { return job.active && job.fresh; });
+        dispatch(1 - current_, store);
+        activeBefore_.clear();   // the chunks are others now
+    }
     glMemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
 }
 

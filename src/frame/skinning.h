@@ -20,6 +20,7 @@ struct SkinJob {
     std::uint32_t jointRow = 0, weightRow = 0;   // in the pose rows
     bool skinned = false;              // else only morphed
     bool active = true;                // to be posed in this run
+    bool fresh = true;                 // has no frame before: its previous positions are written too
 };
 
 class Skinner {
@@ -29,8 +30,7 @@ public:
     // Places all jobs one after another, allocates the posed buffers and copies what posing does not change (uvs, colours).
     void rebuild(std::span<SkinJob> jobs, std::size_t poseRowCount, const MeshStore& store);
     // Writes the active jobs' posed vertices; what was current becomes previous. poseRows: as SkinJob says.
-    // both: writes the previous positions too (the first frame of something new).
-    void run(std::span<const SkinJob> jobs, std::span<const Vec4> poseRows, const MeshStore& store, bool both);
+    void run(std::span<const SkinJob> jobs, std::span<const Vec4> poseRows, const MeshStore& store);
 
     std::size_t vertexCount() const { return vertexCount_; }
     int current() const { return current_; }
@@ -40,6 +40,8 @@ public:
     const gl::Buffer& uv1() const { return uv1_; }
 
 private:
+    template <class Wanted>
+    void gatherChunks(std::span<const SkinJob> jobs, const Wanted& wanted);
     void dispatch(int target, const MeshStore& store) const;
     gl::Device* device_ = nullptr;
     const gl::Program* program_ = nullptr;

@@ -94,7 +94,7 @@ protected:
         }
         ASSERT_FALSE(jobs.empty());
         skinner->rebuild(jobs, rows.size(), store);
-        skinner->run(jobs, rows, store, true);
+        skinner->run(jobs, rows, store);
 
         for (int which = 0; which < 2; ++which) {   // the previous positions of a first frame are the same
             std::vector<Vec3> positions(skinner->vertexCount());
@@ -173,6 +173,60 @@ TEST_F(FrameSkinning, MorphsWithoutSkinEqualTheCpu) {
     Pose pose;
     poseModel(model, -1, 0, false, pose);
     compare(model, pose, 2);
+}
+
+// What is posed anew keeps where it was; what is not posed keeps both; what is fresh has no other place before.
+TEST_F(FrameSkinning, PreviousPositionsAreThoseOfTheFrameBefore) {
+    registerFrameShaders();
+    Model model = syntheticModel();
+    auto materials = MaterialStore::create(device());
+    ASSERT_TRUE(materials);
+    MeshStore store;
+    auto gpu = store.add(device(), model, 0, *materials);
+    ASSERT_TRUE(gpu);
+    auto skinner = Skinner::create(device());
+    ASSERT_TRUE(skinner);
+    const GpuPrimitive& primitive = gpu->meshes[0][0];
+    std::vector<SkinJob> jobs(2);
+    for (SkinJob& job : jobs) job.primitive = &primitive;
+    jobs[1].jointRow = 9;
+    auto rowsAt = [](float x) {   // three joints each, moved by x and by -x; no morph weights
+        std::vector<Vec4> rows;
+        for (const float t : {x, -x})
+            for (int joint = 0; joint < 3; ++joint) {
+                rows.push_back({1, 0, 0, t});
+                rows.push_back({0, 1, 0, 0});
+                rows.push_back({0, 0, 1, 0});
+            }
+        rows.push_back({0, 0, 0, 0});
+        return rows;
+    };
+    for (SkinJob& job : jobs) job.skinned = true, job.weightRow = 18;
+    skinner->rebuild(jobs, 19, store);
+    auto offset = [&](int job, bool previous) {
+        Vec3 p;
+        const int which = previous ? 1 - skinner->current() : skinner->current();
+        skinner->positions(which).read(jobs[std::size_t(job)].targetVertex * sizeof(Vec3), std::as_writable_bytes(std::span(&p, 1)));
+        return p.x - model.meshes[0].primitives[0].positions[0].x;
+    };
+    skinner->run(jobs, rowsAt(1), store);
+    EXPECT_NEAR(offset(0, false), 1, 1e-5);
+    EXPECT_NEAR(offset(0, true), 1, 1e-5);
+    jobs[0].fresh = jobs[1].fresh = false;
+    skinner->run(jobs, rowsAt(2), store);
+    EXPECT_NEAR(offset(0, false), 2, 1e-5);
+    EXPECT_NEAR(offset(0, true), 1, 1e-5);
+    EXPECT_NEAR(offset(1, true), -1, 1e-5);
+    jobs[1].fresh = true;
+    skinner->run(jobs, rowsAt(3), store);
+    EXPECT_NEAR(offset(0, true), 2, 1e-5);
+    EXPECT_NEAR(offset(1, false), -3, 1e-5);
+    EXPECT_NEAR(offset(1, true), -3, 1e-5);
+    jobs[1].fresh = jobs[1].active = false;
+    skinner->run(jobs, rowsAt(4), store);
+    EXPECT_NEAR(offset(0, false), 4, 1e-5);
+    EXPECT_NEAR(offset(1, false), -3, 1e-5);
+    EXPECT_NEAR(offset(1, true), -3, 1e-5);
 }
 
 TEST_F(FrameSkinning, CharactersEqualTheCpu) {

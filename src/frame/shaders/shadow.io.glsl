@@ -98,7 +98,7 @@ float sunVisibility(vec3 worldPos, vec3 worldNormal, float viewDepth, vec2 pixel
     int inMap = min(cascade, SHOAL_MAX_CASCADES - 1);
     float fadeStart = shadowBlock.cascadeFade[inMap];
     float fade = clamp((viewDepth - fadeStart) / (shadowBlock.cascadeEnd[inMap] - fadeStart), 0.0, 1.0);
-    bool facing = sunNormal.z > 0.0;
+    bool facing = count == 0 || sunNormal.z > 0.0;   // a sun without shadow has no axes here
     int end = !facing ? cascade : min(fade > 0.0 ? cascade + 2 : cascade + 1, count);
     float shadow = 0.0;   // beyond the last cascade is light
     for (int c = cascade; c < end; ++c)
