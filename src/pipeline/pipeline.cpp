@@ -18,7 +18,7 @@ namespace shoal::pipeline {
 
 namespace {
 
-constexpr int kTemporalPattern = 16;   // frames after which the temporal jitter begins again
+constexpr int kEndlessPattern = 0;   // samplePattern's count for temporal antialiasing
 
 // What a scene is on a device.
 struct Loaded {
@@ -251,7 +251,7 @@ Result<void> Pipeline::render(const FrameRequest& request) {
     const std::uint32_t firstSample = (request.seed - 1) * 4099;   // another place in the noise
     for (int i = 0; i < sampleCount; ++i) {
         context.sampleIndex = firstSample + std::uint32_t(i);
-        if (temporal) context.jitterPx = sampleOffset(int(request.frameIndex % kTemporalPattern), kTemporalPattern, request.seed);
+        if (temporal) context.jitterPx = sampleOffset(int(request.frameIndex), kEndlessPattern, request.seed);
         else if (sampleCount > 1) context.jitterPx = sampleOffset(i, sampleCount, request.seed);
         s.drawSample(context);
         if (temporal) s.post.temporal(context, *s.targets, request.frameIndex == 0);

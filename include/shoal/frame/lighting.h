@@ -55,7 +55,7 @@ public:
     Lighting& operator=(Lighting&&) noexcept;
     ~Lighting();
 
-    // Uploads the map and prefilters it (SH on the CPU; specular mips in compute). Slow (tens of ms): only when it changes.
+    // Uploads the map and prefilters it (SH on the CPU; specular levels in C++). Slow (tens of ms): only when it changes.
     Result<void> setEnvironment(const light::Environment& environment);
 
     // Fills the light block; computes ambient occlusion from the G-buffer.

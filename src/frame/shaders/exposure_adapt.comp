@@ -1,5 +1,5 @@
 #version 450 core
-// One thread turns the histogram into an exposure: the mean log luminance between two percentiles becomes middle grey.
+// One thread turns the histogram into an exposure: the mean log luminance between two percentiles becomes kTarget.
 // The darkest half hardly matters to what a photographer exposes for, and the brightest 2 % (lamps, the sun) must not
 // darken the rest.
 #include "frame/exposure.io.glsl"
@@ -10,7 +10,8 @@ layout(location = 0) uniform vec4 rate;
 
 const float kLowPercentile = 0.40;
 const float kHighPercentile = 0.98;
-const float kMiddleGrey = 0.18;
+// Two thirds of a stop above middle grey (0.18): what counts is the brighter part of the picture.
+const float kTarget = 0.285;
 
 void main() {
     float total = 0.0;
@@ -25,7 +26,7 @@ void main() {
         before = after;
         exposureState.bins[i] = 0u;
     }
-    float measured = count > 0.0 ? kMiddleGrey / exp2(sum / count) : 1.0;
+    float measured = count > 0.0 ? kTarget / exp2(sum / count) : 1.0;
     if (rate.z > 0.0) {
         exposureState.antialiasing = measured;
         return;
