@@ -7,7 +7,7 @@
 namespace shoal::frame {
 namespace {
 
-constexpr std::size_t kViewsPerRing = 8;   // views whose commands fit before the ring starts over
+constexpr std::size_t kViewsPerRing = 8;  // views whose commands fit before the ring starts over
 
 }  // namespace
 
@@ -32,7 +32,8 @@ void CommandList::build(gl::Device& device, std::span<const Draw> draws, Order o
         int batchCount = 0;
         for (const Item& i : items_) batchCount = std::max(batchCount, i.batch + 1);
         nearest_.assign(std::size_t(batchCount), 1e30f);
-        for (const Item& i : items_) nearest_[std::size_t(i.batch)] = std::min(nearest_[std::size_t(i.batch)], i.distance);
+        for (const Item& i : items_)
+            nearest_[std::size_t(i.batch)] = std::min(nearest_[std::size_t(i.batch)], i.distance);
         std::sort(items_.begin(), items_.end(), [this](const Item& a, const Item& b) {
             if (a.batch != b.batch) {
                 const float na = nearest_[std::size_t(a.batch)], nb = nearest_[std::size_t(b.batch)];
@@ -44,7 +45,8 @@ void CommandList::build(gl::Device& device, std::span<const Draw> draws, Order o
 
     for (const Item& item : items_) {
         const Draw& d = draws[item.draw];
-        if (runs_.empty() || runs_.back().batch != item.batch) runs_.push_back({item.batch, std::uint32_t(commands_.size()), 0});
+        if (runs_.empty() || runs_.back().batch != item.batch)
+            runs_.push_back({item.batch, std::uint32_t(commands_.size()), 0});
         ++runs_.back().count;
         commands_.push_back({d.indexCount, 1, d.firstIndex, std::int32_t(d.baseVertex), item.draw});
         triangles_ += d.indexCount / 3;

@@ -18,8 +18,8 @@ namespace shoal::frame {
 struct BatchKey {
     SurfaceVariant variant = SurfaceVariant::flat;
     bool masked = false, doubleSided = false, mirrored = false;
-    bool posed = false;         // vertices from the posed buffers
-    int material = -1;          // whose textures are bound; -1: none needed
+    bool posed = false;  // vertices from the posed buffers
+    int material = -1;   // whose textures are bound; -1: none needed
     auto operator<=>(const BatchKey&) const = default;
 };
 
@@ -28,7 +28,7 @@ struct Draw {
     std::uint32_t firstIndex = 0, indexCount = 0, baseVertex = 0;
     int material = 0;
     int batch = 0, depthBatch = 0;
-    Box box;                    // world
+    Box box;  // world
     bool visible = true, castsShadow = true, transparent = false;
 };
 
@@ -36,7 +36,7 @@ struct Draw {
 struct DrawCommand {
     std::uint32_t count = 0, instanceCount = 1, firstIndex = 0;
     std::int32_t baseVertex = 0;
-    std::uint32_t baseInstance = 0;    // index of the draw
+    std::uint32_t baseInstance = 0;  // index of the draw
 };
 
 // Batches met so far; their indices stay valid.
@@ -55,7 +55,7 @@ private:
 // Consecutive commands with one batch.
 struct DrawRun {
     int batch = 0;
-    std::uint32_t first = 0, count = 0;    // commands
+    std::uint32_t first = 0, count = 0;  // commands
 };
 
 // The commands of one view, made on the CPU and uploaded into a ring that several views of a frame share.
@@ -64,9 +64,9 @@ public:
     struct Item {
         std::uint32_t draw = 0;
         int batch = 0;
-        float distance = 0;     // along the view axis to the nearest corner of the box
+        float distance = 0;  // along the view axis to the nearest corner of the box
     };
-    std::vector<Item>& items() { return items_; }    // cleared and filled by the caller
+    std::vector<Item>& items() { return items_; }  // cleared and filled by the caller
     enum class Order { batchesFrontToBack, backToFront };
     // Sorts the items, makes commands and runs, uploads. Offset of the first command in the buffer: byteOffset().
     void build(gl::Device& device, std::span<const Draw> draws, Order order);
@@ -80,7 +80,7 @@ private:
     std::vector<Item> items_;
     std::vector<DrawCommand> commands_;
     std::vector<DrawRun> runs_;
-    std::vector<float> nearest_;      // of each batch
+    std::vector<float> nearest_;  // of each batch
     gl::Buffer buffer_;
     std::size_t offset_ = 0, next_ = 0;
     std::int64_t triangles_ = 0;

@@ -27,7 +27,8 @@ inline Box transformed(const Mat4& m, const Box& b) {
     return to;
 }
 
-// The planes of a reversed-z clip space with z in [0, w]: sides, near (z <= w) and far (z >= 0; at infinity it cuts nothing).
+// The planes of a reversed-z clip space with z in [0, w]: sides, near (z <= w) and far (z >= 0; at infinity it cuts
+// nothing).
 class Frustum {
 public:
     explicit Frustum(const Mat4& clipFromWorld) {

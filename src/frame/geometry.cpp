@@ -36,25 +36,29 @@ Result<void> buildPrograms(State& s) {
     for (int variant = 0; variant < kSurfaceVariantCount; ++variant) {
         Defines defines;
         if (variant > 0) defines.push_back({variantDefine(variant), "1"});
-        SHOAL_TRY_ASSIGN(s.surface[variant][0], cache.get({{"frame/gbuffer.vert", "frame/gbuffer.frag"}, defines, "surfaces"}));
-        if (variant > 0) {   // flat masked materials take the base texture variant with a white texture
+        SHOAL_TRY_ASSIGN(s.surface[variant][0],
+                         cache.get({{"frame/gbuffer.vert", "frame/gbuffer.frag"}, defines, "surfaces"}));
+        if (variant > 0) {  // flat masked materials take the base texture variant with a white texture
             defines.push_back({"MASKED", "1"});
             SHOAL_TRY_ASSIGN(s.surface[variant][1],
                              cache.get({{"frame/gbuffer.vert", "frame/gbuffer.frag"}, defines, "masked surfaces"}));
             defines.pop_back();
         }
         defines.push_back({"FORWARD", "1"});
-        SHOAL_TRY_ASSIGN(s.transparent[variant],
-                         cache.get({{"frame/gbuffer.vert", "frame/transparent.frag"}, defines, "transparent surfaces"}));
+        SHOAL_TRY_ASSIGN(
+            s.transparent[variant],
+            cache.get({{"frame/gbuffer.vert", "frame/transparent.frag"}, defines, "transparent surfaces"}));
     }
     SHOAL_TRY_ASSIGN(s.depthOnly[0], cache.get({{"frame/depth_only.vert", "frame/depth_only.frag"}, {}, "depth only"}));
-    SHOAL_TRY_ASSIGN(s.depthOnly[1],
-                     cache.get({{"frame/depth_only.vert", "frame/depth_only.frag"}, {{"MASKED", "1"}}, "masked depth only"}));
+    SHOAL_TRY_ASSIGN(
+        s.depthOnly[1],
+        cache.get({{"frame/depth_only.vert", "frame/depth_only.frag"}, {{"MASKED", "1"}}, "masked depth only"}));
     return {};
 }
 
 bool matches(const std::string& pattern, const std::string& name) {
-    if (!pattern.empty() && pattern.back() == '*') return name.compare(0, pattern.size() - 1, pattern, 0, pattern.size() - 1) == 0;
+    if (!pattern.empty() && pattern.back() == '*')
+        return name.compare(0, pattern.size() - 1, pattern, 0, pattern.size() - 1) == 0;
     return pattern == name;
 }
 
@@ -70,7 +74,7 @@ bool finite(const Mat4& m) {
     return true;
 }
 
-constexpr std::size_t kMostDraws = std::size_t(1) << 24;   // primitives of all instances; records take 128 bytes each
+constexpr std::size_t kMostDraws = std::size_t(1) << 24;  // primitives of all instances; records take 128 bytes each
 
 }  // namespace
 
@@ -139,16 +143,17 @@ Result<InstanceId> Geometry::addInstance(const InstanceDesc& desc) {
     State& s = *state_;
     SHOAL_ASSERT_MSG(desc.model >= 0 && std::size_t(desc.model) < s.models.size(), "instance of an unknown model");
     const GpuModel& model = s.models[std::size_t(desc.model)];
-    if (!finite(desc.worldFromModel)) return badInput("instance of " + model.skeleton.name + ": its transform is not finite");
+    if (!finite(desc.worldFromModel))
+        return badInput("instance of " + model.skeleton.name + ": its transform is not finite");
     if (desc.clip >= int(model.skeleton.clips.size()))
-        return badInput("instance of " + model.skeleton.name + ": clip is " + std::to_string(desc.clip) + ", expected less than " +
-                        std::to_string(model.skeleton.clips.size()));
+        return badInput("instance of " + model.skeleton.name + ": clip is " + std::to_string(desc.clip) +
+                        ", expected less than " + std::to_string(model.skeleton.clips.size()));
     std::size_t added = 0;
     for (const Node& node : model.skeleton.nodes)
         if (node.mesh >= 0) added += model.meshes[std::size_t(node.mesh)].size();
     if (s.draws.size() + added > kMostDraws)
-        return badInput("instances have " + std::to_string(s.draws.size() + added) + " primitives together, expected at most " +
-                        std::to_string(kMostDraws));
+        return badInput("instances have " + std::to_string(s.draws.size() + added) +
+                        " primitives together, expected at most " + std::to_string(kMostDraws));
     GeometryInstance instance;
     instance.desc = desc;
     instance.animated = desc.clip >= 0;
@@ -181,7 +186,8 @@ void Geometry::clear() {
     s.changedBoxes.clear();
     s.meshes.clear();
     // The default material was uploaded before: its storage is there.
-    if (const Result<void> cleared = s.materials.clear(); !cleared) s.device->log(LogLevel::error, cleared.error().message);
+    if (const Result<void> cleared = s.materials.clear(); !cleared)
+        s.device->log(LogLevel::error, cleared.error().message);
     s.bounds = {};
     s.hasTransparent = false;
     s.structureChanged = true;

@@ -15,15 +15,17 @@ constexpr float kLeastCasterTexels = 0.75f;
 
 void setRaster(bool depthWrite, bool blend) {
     glEnable(GL_DEPTH_TEST);
-    glDepthFunc(GL_GREATER);   // reversed z
+    glDepthFunc(GL_GREATER);  // reversed z
     glDepthMask(depthWrite ? GL_TRUE : GL_FALSE);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glDisable(GL_SCISSOR_TEST);
     glDisable(GL_STENCIL_TEST);
     glDisable(GL_POLYGON_OFFSET_FILL);
     glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
-    if (blend) glEnable(GL_BLEND), glBlendEquation(GL_FUNC_ADD), glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-    else glDisable(GL_BLEND);
+    if (blend)
+        glEnable(GL_BLEND), glBlendEquation(GL_FUNC_ADD), glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    else
+        glDisable(GL_BLEND);
 }
 
 void setCulling(const BatchKey& key) {
@@ -38,12 +40,14 @@ void setCulling(const BatchKey& key) {
 
 void drawRun(const CommandList& commands, const DrawRun& run) {
     const std::size_t offset = commands.byteOffset() + run.first * sizeof(DrawCommand);
-    glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, reinterpret_cast<const void*>(offset), GLsizei(run.count), 0);
+    glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, reinterpret_cast<const void*>(offset),
+                                GLsizei(run.count), 0);
 }
 
 }  // namespace
 
-void State::collect(const Mat4& clipFromWorld, const Mat4& viewFromWorld, bool depth, bool transparentOnes, float leastSize) {
+void State::collect(const Mat4& clipFromWorld, const Mat4& viewFromWorld, bool depth, bool transparentOnes,
+                    float leastSize) {
     const Frustum frustum(clipFromWorld);
     const Vec3 axis{-viewFromWorld(2, 0), -viewFromWorld(2, 1), -viewFromWorld(2, 2)};
     const float origin = -viewFromWorld(2, 3);
@@ -57,9 +61,11 @@ void State::collect(const Mat4& clipFromWorld, const Mat4& viewFromWorld, bool d
         const Vec3 h = draw.box.half;
         const float reach = std::abs(axis.x) * h.x + std::abs(axis.y) * h.y + std::abs(axis.z) * h.z;
         const float center = dot(axis, draw.box.center) + origin;
-        items.push_back({std::uint32_t(d), depth ? draw.depthBatch : draw.batch, transparentOnes ? center : center - reach});
+        items.push_back(
+            {std::uint32_t(d), depth ? draw.depthBatch : draw.batch, transparentOnes ? center : center - reach});
     }
-    commands.build(*device, draws, transparentOnes ? CommandList::Order::backToFront : CommandList::Order::batchesFrontToBack);
+    commands.build(*device, draws,
+                   transparentOnes ? CommandList::Order::backToFront : CommandList::Order::batchesFrontToBack);
 }
 
 void State::bindShared() const {
@@ -102,7 +108,7 @@ void Geometry::drawDepth(const Context& context, const NeededView& view) {
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, view.framebuffer);
     glViewport(0, 0, view.view.width, view.view.height);
     setRaster(true, false);
-    const GLfloat farAway = 0;   // reversed z
+    const GLfloat farAway = 0;  // reversed z
     glClearNamedFramebufferfv(view.framebuffer, GL_DEPTH, 0, &farAway);
 
     // Orthographic maps have one texel size; there, what is smaller than a texel need not be drawn.

@@ -18,21 +18,21 @@ namespace shoal::frame {
 
 struct GeometryInstance {
     InstanceDesc desc;
-    bool animated = false;            // has a clip
+    bool animated = false;  // has a clip
     Pose pose;
-    float posedTime = 0;              // clip seconds of `pose`
-    bool posed = false;               // `pose` holds something
-    bool poseChanged = false;         // in this update
-    bool transformChanged = false;    // since the last update
+    float posedTime = 0;            // clip seconds of `pose`
+    bool posed = false;             // `pose` holds something
+    bool poseChanged = false;       // in this update
+    bool transformChanged = false;  // since the last update
     bool visibilityChanged = false;
-    bool fresh = true;                // has no frame before
-    int movingUpdates = 0;            // updates left that must write its records (the frame after a move, too)
+    bool fresh = true;      // has no frame before
+    int movingUpdates = 0;  // updates left that must write its records (the frame after a move, too)
     std::uint32_t firstDraw = 0, drawCount = 0;
     std::uint32_t firstJob = 0, jobCount = 0;
-    std::vector<std::uint32_t> skinRow;     // first pose row of each skin
-    std::vector<std::uint32_t> weightRow;   // first pose row of each node's morph weights
+    std::vector<std::uint32_t> skinRow;    // first pose row of each skin
+    std::vector<std::uint32_t> weightRow;  // first pose row of each node's morph weights
     std::uint32_t poseRowEnd = 0;
-    Bounds bounds;                    // world, of its draws
+    Bounds bounds;  // world, of its draws
 };
 
 struct Geometry::State {
@@ -52,13 +52,13 @@ struct Geometry::State {
     std::vector<GpuModel> models;
     std::vector<GeometryInstance> instances;
     std::vector<Draw> draws;
-    std::vector<const GpuPrimitive*> drawPrimitives;   // of each draw
-    std::vector<int> drawJob;                          // of each draw, -1: not posed
-    std::vector<DrawRecord> records;                   // of each draw
+    std::vector<const GpuPrimitive*> drawPrimitives;  // of each draw
+    std::vector<int> drawJob;                         // of each draw, -1: not posed
+    std::vector<DrawRecord> records;                  // of each draw
     std::vector<SkinJob> jobs;
     std::vector<Vec4> poseRows;
     BatchTable batches;
-    bool structureChanged = true;      // instances or models came or went
+    bool structureChanged = true;  // instances or models came or went
     bool hasTransparent = false;
 
     gl::VertexArray staticVertices, posedVertices[2];
@@ -67,7 +67,7 @@ struct Geometry::State {
     CommandList commands;
 
     std::optional<std::uint32_t> updatedFrame;
-    std::vector<Box> changedBoxes;     // world, of what moved in the last update
+    std::vector<Box> changedBoxes;  // world, of what moved in the last update
     Bounds bounds;
     GeometryStats stats;
 
@@ -77,7 +77,8 @@ struct Geometry::State {
     void rebuild();
     void update(const Context& context);
     // geometry_draw.cpp
-    void collect(const Mat4& clipFromWorld, const Mat4& viewFromWorld, bool depth, bool transparentOnes, float leastSize);
+    void collect(const Mat4& clipFromWorld, const Mat4& viewFromWorld, bool depth, bool transparentOnes,
+                 float leastSize);
     void bindShared() const;
 };
 

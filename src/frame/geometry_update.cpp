@@ -30,7 +30,8 @@ void placePoseRows(GeometryInstance& instance, const GpuModel& model, std::uint3
             const int mesh = model.skeleton.nodes[n].mesh;
             if (mesh < 0) continue;
             std::size_t targets = 0;
-            for (const GpuPrimitive& p : model.meshes[std::size_t(mesh)]) targets = std::max<std::size_t>(targets, p.morphCount);
+            for (const GpuPrimitive& p : model.meshes[std::size_t(mesh)])
+                targets = std::max<std::size_t>(targets, p.morphCount);
             instance.weightRow[n] = next;
             next += std::uint32_t((targets + 3) / 4);
         }
@@ -74,7 +75,8 @@ Box worldBox(const GeometryInstance& instance, const GpuPrimitive& p, const Node
         return transformed(world * instance.pose.modelFromNode[std::size_t(nodeIndex)], grown(p.bounds));
     Bounds inModel;
     const std::vector<Mat4>& modelFromBind = instance.pose.modelFromBind[std::size_t(node.skin)];
-    for (const JointBox& j : p.jointBoxes) inModel.add(boundsOf(transformed(modelFromBind[std::size_t(j.joint)], grown(j.box))));
+    for (const JointBox& j : p.jointBoxes)
+        inModel.add(boundsOf(transformed(modelFromBind[std::size_t(j.joint)], grown(j.box))));
     return transformed(world, boxOf(inModel));
 }
 
@@ -89,7 +91,8 @@ void poseInstance(GeometryInstance& instance, const GpuModel& model, float time)
 
 int batchOf(State& s, const Draw& draw, bool posed, bool mirrored) {
     const GpuMaterial& m = s.materials.at(draw.material);
-    return s.batches.index({m.variant, m.masked, m.doubleSided, mirrored, posed, m.variant == SurfaceVariant::flat ? -1 : draw.material});
+    return s.batches.index(
+        {m.variant, m.masked, m.doubleSided, mirrored, posed, m.variant == SurfaceVariant::flat ? -1 : draw.material});
 }
 
 // Back faces are left out only where that changes no shadow: single walls and rooms keep the sun out from both sides.
@@ -112,8 +115,11 @@ void moveDraws(State& s, GeometryInstance& instance) {
         const bool skinned = p.skinned && node.skin >= 0;
         // glTF: a skinned mesh ignores its node's transform.
         const Mat4 matrix = skinned ? world : world * instance.pose.modelFromNode[std::size_t(draw.node)];
-        if (instance.fresh) setRows(record.previousFromModel, matrix);
-        else std::copy(std::begin(record.worldFromModel), std::end(record.worldFromModel), std::begin(record.previousFromModel));
+        if (instance.fresh)
+            setRows(record.previousFromModel, matrix);
+        else
+            std::copy(std::begin(record.worldFromModel), std::end(record.worldFromModel),
+                      std::begin(record.previousFromModel));
         setRows(record.worldFromModel, matrix);
         const bool mirrored = determinant3(matrix) < 0;
         record.flags = mirrored ? SHOAL_DRAW_MIRRORED : 0;
@@ -126,8 +132,8 @@ void moveDraws(State& s, GeometryInstance& instance) {
     instance.bounds = bounds;
 }
 
-void bindVertexBuffers(gl::VertexArray& array, const gl::Buffer& positions, const gl::Buffer& previous, const gl::Buffer& frames,
-                       const gl::Buffer& attributes, const gl::Buffer& uv1, const State& s) {
+void bindVertexBuffers(gl::VertexArray& array, const gl::Buffer& positions, const gl::Buffer& previous,
+                       const gl::Buffer& frames, const gl::Buffer& attributes, const gl::Buffer& uv1, const State& s) {
     int index = 0;
     array.setBuffer(index++, positions.view(), sizeof(Vec3));
     array.setBuffer(index++, frames.view(), sizeof(PackedFrame));
@@ -144,7 +150,8 @@ void bindVertexBuffers(gl::VertexArray& array, const gl::Buffer& positions, cons
 void State::rebuild() {
     structureChanged = false;
     std::uint32_t poseRowCount = 0;
-    for (GeometryInstance& instance : instances) placePoseRows(instance, models[std::size_t(instance.desc.model)], poseRowCount);
+    for (GeometryInstance& instance : instances)
+        placePoseRows(instance, models[std::size_t(instance.desc.model)], poseRowCount);
     poseRows.resize(poseRowCount);
     records.resize(draws.size());
     for (std::size_t d = 0; d < draws.size(); ++d) {
@@ -181,8 +188,8 @@ void State::rebuild() {
                       meshes.attributes.buffer(), meshes.uv1.buffer(), *this);
     if (skinner.vertexCount() == 0) return;
     for (int which = 0; which < 2; ++which)
-        bindVertexBuffers(posedVertices[which], skinner.positions(which), skinner.positions(1 - which), skinner.frames(),
-                          skinner.attributes(), skinner.uv1(), *this);
+        bindVertexBuffers(posedVertices[which], skinner.positions(which), skinner.positions(1 - which),
+                          skinner.frames(), skinner.attributes(), skinner.uv1(), *this);
 }
 
 void State::update(const Context& context) {
@@ -195,7 +202,8 @@ void State::update(const Context& context) {
     parallelFor(instances.size(), kInstancesPerTask, [&](std::size_t i) {
         GeometryInstance& instance = instances[i];
         instance.poseChanged = false;
-        if (instance.desc.visible || !instance.posed) poseInstance(instance, models[std::size_t(instance.desc.model)], context.time);
+        if (instance.desc.visible || !instance.posed)
+            poseInstance(instance, models[std::size_t(instance.desc.model)], context.time);
         if (instance.poseChanged || rebuilt) writePoseRows(instance, poseRows);
     });
 
@@ -205,9 +213,10 @@ void State::update(const Context& context) {
     for (GeometryInstance& instance : instances) {
         if (instance.visibilityChanged) {
             changedBoxes.push_back(boxOf(instance.bounds));
-            for (std::uint32_t d = 0; d < instance.drawCount; ++d) draws[instance.firstDraw + d].visible = instance.desc.visible;
+            for (std::uint32_t d = 0; d < instance.drawCount; ++d)
+                draws[instance.firstDraw + d].visible = instance.desc.visible;
             instance.visibilityChanged = false;
-            if (instance.desc.visible) instance.fresh = true;   // what it was before it hid is no motion
+            if (instance.desc.visible) instance.fresh = true;  // what it was before it hid is no motion
         }
         const bool moved = instance.poseChanged || instance.transformChanged || instance.fresh;
         if (moved) instance.movingUpdates = 2;
@@ -227,8 +236,8 @@ void State::update(const Context& context) {
         instance.transformChanged = instance.fresh = false;
     }
     if (firstDirty < endDirty)
-        recordBuffer.write(firstDirty * sizeof(DrawRecord),
-                           std::as_bytes(std::span<const DrawRecord>(records).subspan(firstDirty, endDirty - firstDirty)));
+        recordBuffer.write(firstDirty * sizeof(DrawRecord), std::as_bytes(std::span<const DrawRecord>(records).subspan(
+                                                                firstDirty, endDirty - firstDirty)));
 
     bounds = {};
     for (const GeometryInstance& instance : instances)

@@ -11,15 +11,16 @@
 namespace shoal::frame {
 namespace {
 
-constexpr float kBlendShadowCutoff = 0.5f;   // blended surfaces cast the shadow of what is at least half there
+constexpr float kBlendShadowCutoff = 0.5f;  // blended surfaces cast the shadow of what is at least half there
 
 const TextureUse* textureUse(const Material& m, int slot) {
-    const TextureUse* const uses[SHOAL_TEXTURE_COUNT] = {&m.baseColorTexture, &m.metallicRoughnessTexture, &m.normalTexture,
-                                                         &m.occlusionTexture, &m.emissionTexture};
+    const TextureUse* const uses[SHOAL_TEXTURE_COUNT] = {&m.baseColorTexture, &m.metallicRoughnessTexture,
+                                                         &m.normalTexture, &m.occlusionTexture, &m.emissionTexture};
     return uses[slot];
 }
 
-// KHR_texture_transform: translation * rotation * scale, the rotation counter-clockwise in a uv plane whose v points down.
+// KHR_texture_transform: translation * rotation * scale, the rotation counter-clockwise in a uv plane whose v points
+// down.
 void setUvRows(MaterialRecord& record, int slot, const TextureUse& use) {
     const float c = std::cos(use.rotation), s = std::sin(use.rotation);
     record.uv[2 * slot] = {c * use.scale.x, s * use.scale.y, use.offset.x, float(use.uvSet)};
@@ -51,7 +52,7 @@ TextureMeaning meaningOf(const Material& m, int slot) {
 
 Result<MaterialStore> MaterialStore::create(gl::Device& device) {
     MaterialStore store(device);
-    store.textures_.sampler({});   // index 0: what a material without textures binds
+    store.textures_.sampler({});  // index 0: what a material without textures binds
     SHOAL_TRY(store.clear());
     return store;
 }
@@ -92,7 +93,8 @@ Result<int> MaterialStore::add(const Model& model) {
             auto found = known.find(key);
             if (found == known.end()) {
                 const std::string name = model.name + " image " + std::to_string(use.image);
-                SHOAL_TRY_ASSIGN(const int texture, textures_.add(model.images[std::size_t(use.image)], key.second, name));
+                SHOAL_TRY_ASSIGN(const int texture,
+                                 textures_.add(model.images[std::size_t(use.image)], key.second, name));
                 found = known.emplace(key, texture).first;
             }
             gpu.textures[slot] = found->second;
@@ -107,9 +109,10 @@ Result<int> MaterialStore::add(const Model& model) {
 
 void MaterialStore::bind(int index) const {
     const GpuMaterial& m = at(index);
-    glBindBufferRange(GL_UNIFORM_BUFFER, SHOAL_BLOCK_PASS, records_.buffer().name(), GLintptr(index) * GLintptr(sizeof(MaterialRecord)),
-                      GLsizeiptr(sizeof(MaterialRecord)));
-    for (int slot = 0; slot < SHOAL_TEXTURE_COUNT; ++slot) textures_.bind(SHOAL_UNIT_BASE_COLOR + slot, m.textures[slot], m.samplers[slot]);
+    glBindBufferRange(GL_UNIFORM_BUFFER, SHOAL_BLOCK_PASS, records_.buffer().name(),
+                      GLintptr(index) * GLintptr(sizeof(MaterialRecord)), GLsizeiptr(sizeof(MaterialRecord)));
+    for (int slot = 0; slot < SHOAL_TEXTURE_COUNT; ++slot)
+        textures_.bind(SHOAL_UNIT_BASE_COLOR + slot, m.textures[slot], m.samplers[slot]);
 }
 
 }  // namespace shoal::frame

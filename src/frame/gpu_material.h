@@ -27,13 +27,14 @@ struct GpuMaterial {
 class MaterialStore {
 public:
     static Result<MaterialStore> create(gl::Device& device);
-    // Adds all of a model's materials and their textures; returns the index of the first. Index 0 is the default material.
+    // Adds all of a model's materials and their textures; returns the index of the first. Index 0 is the default
+    // material.
     Result<int> add(const Model& model);
     const GpuMaterial& at(int index) const { return materials_[std::size_t(index)]; }
     // The material's record as uniform block, its textures to their units.
     void bind(int index) const;
     void bindRecords() const { records_.buffer().bindStorage(SHOAL_STORAGE_MATERIALS); }
-    Result<void> clear();   // all but the default material
+    Result<void> clear();  // all but the default material
 
 private:
     explicit MaterialStore(gl::Device& device) : device_(&device), textures_(device) {}

@@ -11,7 +11,7 @@
 namespace shoal::frame {
 namespace {
 
-constexpr std::size_t kLargestBuffer = std::size_t(1) << 31;   // bytes of one vertex stream
+constexpr std::size_t kLargestBuffer = std::size_t(1) << 31;  // bytes of one vertex stream
 constexpr std::size_t kVerticesPerTask = 8192;
 
 std::uint32_t snorm(float x, int bits) {
@@ -91,7 +91,8 @@ GpuPrimitive packPrimitive(const Primitive& p, std::size_t first, Packed& to) {
     gpu.skinned = !p.joints.empty() && !p.weights.empty();
     if (gpu.skinned) {
         gpu.firstInfluence = std::uint32_t(to.influences.size());
-        for (std::size_t i = 0; i < p.vertexCount(); ++i) to.influences.push_back(packInfluence(p.joints[i], p.weights[i]));
+        for (std::size_t i = 0; i < p.vertexCount(); ++i)
+            to.influences.push_back(packInfluence(p.joints[i], p.weights[i]));
         gpu.jointBoxes = jointBoxes(p);
     }
     gpu.firstMorph = std::uint32_t(to.morphs.size());
@@ -122,12 +123,14 @@ Model skeletonOf(const Model& model) {
 
 Result<void> checkSize(const char* what, std::size_t used, std::size_t added, const std::string& name) {
     if (used + added <= kLargestBuffer) return {};
-    return badInput(name + ": " + std::to_string(used + added) + " bytes of " + what + " with the models before it, expected at most " +
-                    std::to_string(kLargestBuffer));
+    return badInput(name + ": " + std::to_string(used + added) + " bytes of " + what +
+                    " with the models before it, expected at most " + std::to_string(kLargestBuffer));
 }
 
 template <class T>
-std::size_t bytesOf(const std::vector<T>& v) { return v.size() * sizeof(T); }
+std::size_t bytesOf(const std::vector<T>& v) {
+    return v.size() * sizeof(T);
+}
 
 template <class T>
 Result<std::uint32_t> appendAll(gl::Device& device, GrowBuffer& buffer, const std::vector<T>& data) {
@@ -156,7 +159,7 @@ Shell shellOf(const ModelMesh& mesh) {
 }
 
 bool shadowsByFrontFaces(const Shell& shell, const Mat4& worldFromModel) {
-    constexpr float kOpenAside = 0.06f, kOpenBelow = 0.35f;   // shares of the surface that may be missing
+    constexpr float kOpenAside = 0.06f, kOpenBelow = 0.35f;  // shares of the surface that may be missing
     if (!(shell.volume > 0)) return false;
     const Mat3 m = normalMatrix(worldFromModel);
     const Vec3 a = shell.area;
@@ -164,13 +167,15 @@ bool shadowsByFrontFaces(const Shell& shell, const Mat4& worldFromModel) {
                      m.m[2] * a.x + m.m[5] * a.y + m.m[8] * a.z};
     const float scale = std::cbrt(std::abs(determinant3(worldFromModel)));
     const float total = shell.total * scale * scale;
-    return std::hypot(world.x, world.z) < kOpenAside * total && world.y > -kOpenAside * total && world.y < kOpenBelow * total;
+    return std::hypot(world.x, world.z) < kOpenAside * total && world.y > -kOpenAside * total &&
+           world.y < kOpenBelow * total;
 }
 
 PackedFrame packFrame(Vec3 normal, Vec4 tangent) {
-    const glsl::vec2 e = dot(normal, normal) > 0 ? glsl::octahedralFromNormal({normal.x, normal.y, normal.z}) : glsl::vec2(0, 0);
-    return {snorm(e.x, 16) | snorm(e.y, 16) << 16, snorm(tangent.x, 10) | snorm(tangent.y, 10) << 10 | snorm(tangent.z, 10) << 20 |
-                                                       (tangent.w < 0 ? 3u : 1u) << 30};
+    const glsl::vec2 e =
+        dot(normal, normal) > 0 ? glsl::octahedralFromNormal({normal.x, normal.y, normal.z}) : glsl::vec2(0, 0);
+    return {snorm(e.x, 16) | snorm(e.y, 16) << 16, snorm(tangent.x, 10) | snorm(tangent.y, 10) << 10 |
+                                                       snorm(tangent.z, 10) << 20 | (tangent.w < 0 ? 3u : 1u) << 30};
 }
 
 PackedInfluence packInfluence(U16Vec4 joints, Vec4 weights) {
@@ -184,11 +189,12 @@ PackedInfluence packInfluence(U16Vec4 joints, Vec4 weights) {
         if (q[k] > q[heaviest]) heaviest = k;
     }
     q[heaviest] = std::min(q[heaviest] + 65535u - std::min(sum, 65535u + q[heaviest]), 65535u);
-    return {std::uint32_t(joints.x) | std::uint32_t(joints.y) << 16, std::uint32_t(joints.z) | std::uint32_t(joints.w) << 16,
-            q[0] | q[1] << 16, q[2] | q[3] << 16};
+    return {std::uint32_t(joints.x) | std::uint32_t(joints.y) << 16,
+            std::uint32_t(joints.z) | std::uint32_t(joints.w) << 16, q[0] | q[1] << 16, q[2] | q[3] << 16};
 }
 
-Result<GpuModel> MeshStore::add(gl::Device& device, const Model& model, int firstMaterial, const MaterialStore& materials) {
+Result<GpuModel> MeshStore::add(gl::Device& device, const Model& model, int firstMaterial,
+                                const MaterialStore& materials) {
     std::size_t total = 0;
     bool needsUv1 = hasUv1;
     for (const ModelMesh& mesh : model.meshes)
@@ -218,7 +224,7 @@ Result<GpuModel> MeshStore::add(gl::Device& device, const Model& model, int firs
     SHOAL_TRY(checkSize("morph offsets", morphs.used(), bytesOf(packed.morphs), model.name));
 
     if (needsUv1 && !hasUv1) {
-        const std::vector<Vec2> before(vertexCount());   // models before this one use none
+        const std::vector<Vec2> before(vertexCount());  // models before this one use none
         SHOAL_TRY(appendAll(device, uv1, before));
         hasUv1 = true;
     }
@@ -231,7 +237,8 @@ Result<GpuModel> MeshStore::add(gl::Device& device, const Model& model, int firs
     SHOAL_TRY_ASSIGN(const std::uint32_t firstMorph, appendAll(device, morphs, packed.morphs));
     for (std::vector<GpuPrimitive>& primitives : gpu.meshes)
         for (GpuPrimitive& p : primitives)
-            p.firstVertex += firstVertex, p.firstIndex += firstIndex, p.firstInfluence += firstInfluence, p.firstMorph += firstMorph;
+            p.firstVertex += firstVertex, p.firstIndex += firstIndex, p.firstInfluence += firstInfluence,
+                p.firstMorph += firstMorph;
     return gpu;
 }
 

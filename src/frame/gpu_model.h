@@ -15,12 +15,12 @@ namespace shoal::frame {
 
 // Vertex streams beside the positions (3 floats).
 struct PackedFrame {
-    std::uint32_t normal;     // octahedral, snorm16 x 2
-    std::uint32_t tangent;    // snorm10 x 3, handedness in the upper 2 bits
+    std::uint32_t normal;   // octahedral, snorm16 x 2
+    std::uint32_t tangent;  // snorm10 x 3, handedness in the upper 2 bits
 };
 struct PackedAttribute {
     Vec2 uv;
-    std::uint32_t color;      // square roots of linear rgb, plain alpha: unorm8 x 4
+    std::uint32_t color;  // square roots of linear rgb, plain alpha: unorm8 x 4
 };
 // Four joints and weights of a skinned vertex: u16 and unorm16 (sum exactly 65535).
 struct PackedInfluence {
@@ -42,35 +42,37 @@ struct JointBox {
 
 // What tells whether a mesh is a closed shell that faces outwards.
 struct Shell {
-    Vec3 area;           // sum of the triangles' area vectors: zero for a closed surface, else what its holes lack
-    float total = 0;     // sum of their sizes
-    double volume = 0;   // signed; positive where triangles face outwards
+    Vec3 area;          // sum of the triangles' area vectors: zero for a closed surface, else what its holes lack
+    float total = 0;    // sum of their sizes
+    double volume = 0;  // signed; positive where triangles face outwards
 };
-// Whether a shell casts the same shadow when its back faces are left out: it faces outwards, and where it is open it is open to the ground.
+// Whether a shell casts the same shadow when its back faces are left out: it faces outwards, and where it is open it is
+// open to the ground.
 Shell shellOf(const ModelMesh& mesh);
 bool shadowsByFrontFaces(const Shell& shell, const Mat4& worldFromModel);
 
 struct GpuPrimitive {
     std::uint32_t firstIndex = 0, indexCount = 0;
     std::uint32_t firstVertex = 0, vertexCount = 0;
-    int material = 0;                       // of the store
-    Bounds bounds;                          // bind pose
-    Shell shell;                            // of all of the mesh
+    int material = 0;  // of the store
+    Bounds bounds;     // bind pose
+    Shell shell;       // of all of the mesh
     bool skinned = false;
-    std::uint32_t firstInfluence = 0;       // skinned only
-    std::uint32_t firstMorph = 0, morphCount = 0;   // targets lie one after another, vertexCount offsets each
-    std::vector<JointBox> jointBoxes;       // skinned only
-    std::vector<Bounds> morphReach;         // box of each target's offsets
+    std::uint32_t firstInfluence = 0;              // skinned only
+    std::uint32_t firstMorph = 0, morphCount = 0;  // targets lie one after another, vertexCount offsets each
+    std::vector<JointBox> jointBoxes;              // skinned only
+    std::vector<Bounds> morphReach;                // box of each target's offsets
     bool posed() const { return skinned || morphCount > 0; }
 };
 
 struct GpuModel {
-    Model skeleton;                          // nodes, skins, clips, meshes' weights; no vertices, materials or images
+    Model skeleton;  // nodes, skins, clips, meshes' weights; no vertices, materials or images
     std::vector<std::vector<GpuPrimitive>> meshes;
 };
 
 struct MeshStore {
-    GrowBuffer positions{"positions"}, frames{"normals and tangents"}, attributes{"uvs and colours"}, uv1{"second uvs"}, indices{"indices"};
+    GrowBuffer positions{"positions"}, frames{"normals and tangents"}, attributes{"uvs and colours"}, uv1{"second uvs"},
+        indices{"indices"};
     GrowBuffer influences{"joints and weights"}, morphs{"morph offsets"};
     bool hasUv1 = false;
     std::size_t vertexCount() const { return positions.used() / sizeof(Vec3); }

@@ -1,5 +1,6 @@
-// Mips by a 2 x 2 box in linear light, colours weighted by alpha. For masked materials every level's alpha is scaled so that as many
-// texels pass the cutoff as in the image [Castano 2010, "Computing alpha mipmaps"]: leaves do not thin out with distance.
+// Mips by a 2 x 2 box in linear light, colours weighted by alpha. For masked materials every level's alpha is scaled so
+// that as many texels pass the cutoff as in the image [Castano 2010, "Computing alpha mipmaps"]: leaves do not thin out
+// with distance.
 #include "frame/gpu_texture.h"
 
 #include <epoxy/gl.h>
@@ -12,7 +13,7 @@
 namespace shoal::frame {
 namespace {
 
-constexpr int kLinearSteps = 4096;   // of the table from linear light back to sRGB bytes
+constexpr int kLinearSteps = 4096;  // of the table from linear light back to sRGB bytes
 constexpr std::size_t kRowsPerTask = 16;
 
 struct SrgbTables {
@@ -78,14 +79,15 @@ ByteImage halved(const ByteImage& image, bool color) {
 // Share of texels with alpha of at least each value: [a] for a in 0..255.
 std::array<double, 256> coverage(const ByteImage& image) {
     std::array<double, 256> share{};
-    for (std::size_t i = 3; i < image.pixels.size(); i += 4) share[image.pixels[i]] += 4.0 / double(image.pixels.size());
+    for (std::size_t i = 3; i < image.pixels.size(); i += 4)
+        share[image.pixels[i]] += 4.0 / double(image.pixels.size());
     for (int a = 254; a >= 0; --a) share[std::size_t(a)] += share[std::size_t(a) + 1];
     return share;
 }
 
 void keepCoverage(ByteImage& image, double wanted, float cutoff) {
     const std::array<double, 256> share = coverage(image);
-    int threshold = 255;   // the alpha that `wanted` of the texels reach
+    int threshold = 255;  // the alpha that `wanted` of the texels reach
     while (threshold > 1 && share[std::size_t(threshold)] < wanted) --threshold;
     const float scale = std::ceil(cutoff * 255) / float(threshold);
     for (std::size_t i = 3; i < image.pixels.size(); i += 4)
@@ -157,7 +159,8 @@ int TextureStore::sampler(const TextureUse& use) {
     const gl::Capabilities& can = device_->capabilities();
     const float anisotropy = device_->software() || !can.anisotropicFiltering ? 1 : std::min(can.maxAnisotropy, 8.0f);
     samplers_.push_back(gl::Sampler::create(*device_, use.nearest ? GL_NEAREST_MIPMAP_LINEAR : GL_LINEAR_MIPMAP_LINEAR,
-                                            use.nearest ? GL_NEAREST : GL_LINEAR, wrap(use.wrapU), wrap(use.wrapV), anisotropy));
+                                            use.nearest ? GL_NEAREST : GL_LINEAR, wrap(use.wrapU), wrap(use.wrapV),
+                                            anisotropy));
     const int index = int(samplers_.size()) - 1;
     samplerIndex_[key] = index;
     return index;

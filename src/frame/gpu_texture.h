@@ -14,8 +14,8 @@ namespace shoal::frame {
 
 // What an image's channels mean: decides the filter of its mips and the texture's format.
 struct TextureMeaning {
-    bool color = false;          // sRGB colour with straight alpha; else plain numbers
-    float coverageCutoff = 0;    // > 0: mips keep the share of texels whose alpha reaches it (masked materials)
+    bool color = false;        // sRGB colour with straight alpha; else plain numbers
+    float coverageCutoff = 0;  // > 0: mips keep the share of texels whose alpha reaches it (masked materials)
     auto operator<=>(const TextureMeaning&) const = default;
 };
 
@@ -30,7 +30,7 @@ public:
     void bind(int unit, int texture, int sampler) const;
     int white() const { return 0; }
     int flatNormal() const { return 1; }
-    void clear();                  // all but the two above
+    void clear();  // all but the two above
 
 private:
     int addPlain(const std::uint8_t (&rgba)[4], const char* label);

@@ -16,7 +16,8 @@ Result<std::size_t> GrowBuffer::reserve(gl::Device& device, std::size_t bytes) {
     // The first storage fits exactly: most scenes load one model.
     const std::size_t capacity = buffer_ ? std::max(needed, buffer_.bytes() + buffer_.bytes() / 2) : needed;
     gl::Buffer larger = gl::Buffer::create(device, std::max<std::size_t>(capacity, 4), label_);
-    if (!larger) return badInput(std::string("out of graphics memory: ") + std::to_string(capacity) + " bytes for " + label_);
+    if (!larger)
+        return badInput(std::string("out of graphics memory: ") + std::to_string(capacity) + " bytes for " + label_);
     used_ = needed;
     if (offset > 0) glCopyNamedBufferSubData(buffer_.name(), larger.name(), 0, 0, GLsizeiptr(offset));
     buffer_ = std::move(larger);

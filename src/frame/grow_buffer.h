@@ -12,8 +12,8 @@ namespace shoal::frame {
 class GrowBuffer {
 public:
     explicit GrowBuffer(const char* label) : label_(label) {}
-    // Appends; what is there already is copied on the GPU when the storage grows. Returns the offset in bytes, or an error
-    // where the driver has no memory for it.
+    // Appends; what is there already is copied on the GPU when the storage grows. Returns the offset in bytes, or an
+    // error where the driver has no memory for it.
     Result<std::size_t> append(gl::Device& device, std::span<const std::byte> data);
     // Like append, contents undefined.
     Result<std::size_t> reserve(gl::Device& device, std::size_t bytes);

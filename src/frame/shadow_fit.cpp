@@ -1,6 +1,6 @@
-// Cascaded shadow maps [Engel 2006; Zhang et al. 2006 for the splits], stable by spheres and texel steps [Valient 2009]. Departures:
-// steps are a sixteenth of a map rather than one texel (more frames find a cascade unchanged), and sizes follow the scene's bounds
-// where those are smaller than the view.
+// Cascaded shadow maps [Engel 2006; Zhang et al. 2006 for the splits], stable by spheres and texel steps [Valient
+// 2009]. Departures: steps are a sixteenth of a map rather than one texel (more frames find a cascade unchanged), and
+// sizes follow the scene's bounds where those are smaller than the view.
 #include "frame/shadow_fit.h"
 
 #include <cmath>
@@ -8,11 +8,12 @@
 namespace shoal::frame {
 namespace {
 
-constexpr int kStepsPerMap = 16;           // a cascade moves by this fraction of its width
-constexpr double kFadeFraction = 0.1;      // part of a slice in which it turns into the next one
-constexpr double kNearestSplit = 0.01;     // slices begin at this fraction of the covered distance, not at the near plane
-constexpr double kWholeSceneGain = 1.4;    // a map of all the scene replaces several when its texels are at most this much larger
-constexpr int kFilterMarginTexels = 12;    // the widest filter of shadow.io.glsl and its bilinear footprint
+constexpr int kStepsPerMap = 16;        // a cascade moves by this fraction of its width
+constexpr double kFadeFraction = 0.1;   // part of a slice in which it turns into the next one
+constexpr double kNearestSplit = 0.01;  // slices begin at this fraction of the covered distance, not at the near plane
+constexpr double kWholeSceneGain =
+    1.4;  // a map of all the scene replaces several when its texels are at most this much larger
+constexpr int kFilterMarginTexels = 12;  // the widest filter of shadow.io.glsl and its bilinear footprint
 
 struct Vec3d {
     double x = 0, y = 0, z = 0;
@@ -57,9 +58,7 @@ Vec3 cornerOf(const Bounds& b, int i) {
 // The four edges of the view's frustum: points at view depth d are origin + d * direction (view space).
 struct FrustumEdges {
     Vec3d origin[4], direction[4];
-    Vec3d at(int i, double d) const {
-        return {origin[i].x + d * direction[i].x, origin[i].y + d * direction[i].y, -d};
-    }
+    Vec3d at(int i, double d) const { return {origin[i].x + d * direction[i].x, origin[i].y + d * direction[i].y, -d}; }
 };
 
 FrustumEdges frustumEdges(const light::View& view) {
@@ -75,12 +74,12 @@ FrustumEdges frustumEdges(const light::View& view) {
 }
 
 struct Sphere {
-    Vec3d center;     // world
+    Vec3d center;  // world
     double radius = 0;
 };
 
-// Bounds the slice of the view between two depths. The centre lies on the frustum's mean axis where near and far corners are
-// equally far from it, but not beyond the far plane.
+// Bounds the slice of the view between two depths. The centre lies on the frustum's mean axis where near and far
+// corners are equally far from it, but not beyond the far plane.
 Sphere sliceSphere(const light::View& view, const FrustumEdges& edges, double from, double to) {
     auto meanAt = [&](double d) {
         Vec3d mean;
@@ -90,7 +89,7 @@ Sphere sliceSphere(const light::View& view, const FrustumEdges& edges, double fr
         }
         return mean;
     };
-    double spread = 0;   // squared, of the corners around the mean axis at unit depth
+    double spread = 0;  // squared, of the corners around the mean axis at unit depth
     if (!view.orthographic) {
         const Vec3d mean = meanAt(1);
         for (int i = 0; i < 4; ++i) {
@@ -168,7 +167,8 @@ CascadeFit fitCascades(const light::View& view, Vec3 toSun, const Bounds& bounds
     for (int r = 0; r < 3; ++r) {
         const double scale = r == 2 ? 1 / range : 1;
         fit.sunFromWorld(r, 0) = float(rows[r].x * scale), fit.sunFromWorld(r, 1) = float(rows[r].y * scale);
-        fit.sunFromWorld(r, 2) = float(rows[r].z * scale), fit.sunFromWorld(r, 3) = r == 2 ? float(-bottom * scale) : 0.0f;
+        fit.sunFromWorld(r, 2) = float(rows[r].z * scale),
+                            fit.sunFromWorld(r, 3) = r == 2 ? float(-bottom * scale) : 0.0f;
     }
 
     // In steps of a quarter octave, hence seldom another size while the eye moves.
@@ -177,12 +177,12 @@ CascadeFit fitCascades(const light::View& view, Vec3 toSun, const Bounds& bounds
     const FrustumEdges edges = frustumEdges(view);
     const auto ends = splitDepths(from, to, setup.cascadeCount, setup.splitBlend);
     const double paddedShare = (1 - 1.0 / kStepsPerMap) * (1 - 2.0 * kFilterMarginTexels / setup.resolution);
-    const double sceneHalf =
-        roundedUp(0.5 * std::max(inSun.hi.x - inSun.lo.x, inSun.hi.y - inSun.lo.y)) / paddedShare;
+    const double sceneHalf = roundedUp(0.5 * std::max(inSun.hi.x - inSun.lo.x, inSun.hi.y - inSun.lo.y)) / paddedShare;
 
     for (int i = 0; i < setup.cascadeCount; ++i) {
         Cascade& cascade = fit.cascades[fit.count++];
-        const Sphere sphere = sliceSphere(view, edges, i == 0 ? from : ends[i] - kFadeFraction * (ends[i] - ends[i - 1]), ends[i + 1]);
+        const Sphere sphere =
+            sliceSphere(view, edges, i == 0 ? from : ends[i] - kFadeFraction * (ends[i] - ends[i - 1]), ends[i + 1]);
         const double sphereHalf = sphere.radius / paddedShare;
         const bool wholeScene = sceneHalf <= kWholeSceneGain * sphereHalf;
         const double half = wholeScene ? sceneHalf : sphereHalf;
@@ -202,8 +202,8 @@ CascadeFit fitCascades(const light::View& view, Vec3 toSun, const Bounds& bounds
 }
 
 light::View spotView(const light::PunctualLight& light, int resolution) {
-    constexpr float kWidest = radians(85);      // half angle: a perspective view cannot hold a hemisphere
-    constexpr float kMarginShare = 4;           // texels beyond the cone on each side, for the filter
+    constexpr float kWidest = radians(85);  // half angle: a perspective view cannot hold a hemisphere
+    constexpr float kMarginShare = 4;       // texels beyond the cone on each side, for the filter
     const float half = std::min(light.outerCone, kWidest);
     const float tangent = std::tan(half) * (1 + 2 * kMarginShare / float(resolution));
     light::View view;

@@ -48,7 +48,8 @@ Result<void> checkSetup(const gl::Device& device, const ShadowSetup& setup) {
     return {};
 }
 
-Result<void> makeSlots(gl::Device& device, const gl::Texture& depth, int count, const char* label, std::vector<State::Slot>& slots) {
+Result<void> makeSlots(gl::Device& device, const gl::Texture& depth, int count, const char* label,
+                       std::vector<State::Slot>& slots) {
     for (int i = 0; i < count; ++i) {
         State::Slot slot;
         const gl::Framebuffer::Attachment attachment{depth.view(), 0, i};
@@ -66,7 +67,7 @@ gl::Texture makeDepth(gl::Device& device, int resolution, int layers, const char
     desc.layers = std::max(layers, 1);
     desc.label = label;
     gl::Texture texture = gl::Texture::create(device, desc);
-    const float nothing = 0;   // reversed z: as far away as can be
+    const float nothing = 0;  // reversed z: as far away as can be
     texture.clear(GL_DEPTH_COMPONENT, GL_FLOAT, &nothing);
     return texture;
 }
@@ -74,14 +75,16 @@ gl::Texture makeDepth(gl::Device& device, int resolution, int layers, const char
 // Beyond a map's edge is light: the border's depth is 0, behind everything.
 gl::Sampler makeSampler(gl::Device& device, bool compare) {
     const gl::Enum filter = compare ? GL_LINEAR : GL_NEAREST;
-    gl::Sampler sampler = gl::Sampler::create(device, filter, filter, GL_CLAMP_TO_BORDER, GL_CLAMP_TO_BORDER, 1, compare);
+    gl::Sampler sampler =
+        gl::Sampler::create(device, filter, filter, GL_CLAMP_TO_BORDER, GL_CLAMP_TO_BORDER, 1, compare);
     const float border[4] = {0, 0, 0, 0};
     glSamplerParameterfv(sampler.name(), GL_TEXTURE_BORDER_COLOR, border);
     if (compare) glSamplerParameteri(sampler.name(), GL_TEXTURE_COMPARE_FUNC, GL_GEQUAL);
     return sampler;
 }
 
-NeededView neededView(State::Slot& slot, NeededView::Purpose purpose, const light::View& view, const gl::Texture& depth, int layer) {
+NeededView neededView(State::Slot& slot, NeededView::Purpose purpose, const light::View& view, const gl::Texture& depth,
+                      int layer) {
     NeededView needed;
     needed.purpose = purpose;
     needed.view = view;
@@ -95,8 +98,8 @@ NeededView neededView(State::Slot& slot, NeededView::Purpose purpose, const ligh
     return needed;
 }
 
-// params.sunDistance, or as far as the scene reaches: all of it seen from outside, 150 m seen from within. In steps, so that a moving
-// eye does not resize the cascades all the time.
+// params.sunDistance, or as far as the scene reaches: all of it seen from outside, 150 m seen from within. In steps, so
+// that a moving eye does not resize the cascades all the time.
 float sunDistance(const Context& context, const ShadowParams& params, const Bounds& bounds) {
     if (params.sunDistance > 0) return params.sunDistance;
     constexpr float kFromWithin = 150, kFromOutside = 2.5f;
@@ -105,15 +108,15 @@ float sunDistance(const Context& context, const ShadowParams& params, const Boun
     return float(roundedUp(std::max(wanted, 4 * context.view.nearZ)));
 }
 
-void prepareSun(State& s, const Context& context, const ShadowParams& params, const light::Sun* sun, const Bounds& bounds,
-                ShadowBlock& block) {
+void prepareSun(State& s, const Context& context, const ShadowParams& params, const light::Sun* sun,
+                const Bounds& bounds, ShadowBlock& block) {
     const bool casts = sun && sun->castsShadow && !bounds.empty() && length(sun->toSun) > 0;
     int used = 0;
     if (casts) {
         const CascadeFitSetup setup{s.setup.sunResolution, s.setup.cascadeCount, sunDistance(context, params, bounds),
-                                     params.splitBlend};
+                                    params.splitBlend};
         const CascadeFit fit = fitCascades(context.view, sun->toSun, bounds, setup);
-        constexpr float kNever = 1e30f;   // view depth of cascades that there are not
+        constexpr float kNever = 1e30f;  // view depth of cascades that there are not
         float ends[kMaxCascades], fades[kMaxCascades];
         std::fill_n(ends, kMaxCascades, kNever);
         std::fill_n(fades, kMaxCascades, kNever);
@@ -122,18 +125,21 @@ void prepareSun(State& s, const Context& context, const ShadowParams& params, co
             const float scale = 0.5f / c.halfExtent;
             block.cascadePlace[used] = {scale, 0.5f - c.center.x * scale, 0.5f - c.center.y * scale, c.metresPerTexel};
             ends[used] = c.endDepth, fades[used] = c.fadeDepth;
-            s.views.push_back(neededView(s.sunSlots[std::size_t(used)], NeededView::Purpose::sunShadow, c.view, s.sunDepth, used));
+            s.views.push_back(
+                neededView(s.sunSlots[std::size_t(used)], NeededView::Purpose::sunShadow, c.view, s.sunDepth, used));
         }
         block.sunFromWorld = fit.sunFromWorld;
         block.cascadeEnd = {ends[0], ends[1], ends[2], ends[3]};
         block.cascadeFade = {fades[0], fades[1], fades[2], fades[3]};
-        block.sunShape = {fit.depthRangeM, std::tan(sun->discHalfAngle) * params.softness, params.normalBias, float(fit.count)};
+        block.sunShape = {fit.depthRangeM, std::tan(sun->discHalfAngle) * params.softness, params.normalBias,
+                          float(fit.count)};
         block.sunMap = {float(s.setup.sunResolution), 1 / float(s.setup.sunResolution), 0, 0};
     }
     for (std::size_t i = std::size_t(used); i < s.sunSlots.size(); ++i) s.sunSlots[i].asked = false;
 }
 
-void prepareSpots(State& s, const ShadowParams& params, std::span<const light::PunctualLight> lights, ShadowBlock& block) {
+void prepareSpots(State& s, const ShadowParams& params, std::span<const light::PunctualLight> lights,
+                  ShadowBlock& block) {
     std::size_t used = 0;
     for (const light::PunctualLight& light : lights) {
         if (used == s.spotSlots.size()) break;
@@ -141,7 +147,8 @@ void prepareSpots(State& s, const ShadowParams& params, std::span<const light::P
         const light::View view = spotView(light, s.setup.spotResolution);
         block.spotFromWorld[used] = view.clipFromWorld();
         const float tangent = 1 / view.clipFromView(1, 1);
-        block.spotPlace[used] = {light.position.x, light.position.y, light.position.z, 2 * tangent / float(view.height)};
+        block.spotPlace[used] = {light.position.x, light.position.y, light.position.z,
+                                 2 * tangent / float(view.height)};
         s.views.push_back(neededView(s.spotSlots[used], NeededView::Purpose::spotShadow, view, s.spotDepth, int(used)));
         ++used;
     }
@@ -162,7 +169,8 @@ Result<Shadows> Shadows::create(gl::Device& device, const ShadowSetup& setup) {
     state->device = &device;
     state->setup = setup;
     state->sunDepth = makeDepth(device, setup.sunResolution, setup.cascadeCount, "sun shadow depth");
-    state->spotDepth = makeDepth(device, setup.maxSpots > 0 ? setup.spotResolution : 1, setup.maxSpots, "spot shadow depth");
+    state->spotDepth =
+        makeDepth(device, setup.maxSpots > 0 ? setup.spotResolution : 1, setup.maxSpots, "spot shadow depth");
     SHOAL_TRY(makeSlots(device, state->sunDepth, setup.cascadeCount, "sun shadow", state->sunSlots));
     SHOAL_TRY(makeSlots(device, state->spotDepth, setup.maxSpots, "spot shadow", state->spotSlots));
     state->plain = makeSampler(device, false);

@@ -7,7 +7,7 @@
 namespace shoal::frame {
 namespace {
 
-constexpr std::uint32_t kLargestGroupCount = 65535;   // along one axis, what GL guarantees
+constexpr std::uint32_t kLargestGroupCount = 65535;  // along one axis, what GL guarantees
 constexpr int kChunksARowLocation = 0, kChunkCountLocation = 1;
 
 void appendChunks(const SkinJob& job, std::vector<SkinChunk>& chunks) {
@@ -27,8 +27,10 @@ void appendChunks(const SkinJob& job, std::vector<SkinChunk>& chunks) {
     }
 }
 
-void copyRange(const gl::Buffer& from, const gl::Buffer& to, std::size_t firstFrom, std::size_t firstTo, std::size_t count, std::size_t stride) {
-    glCopyNamedBufferSubData(from.name(), to.name(), GLintptr(firstFrom * stride), GLintptr(firstTo * stride), GLsizeiptr(count * stride));
+void copyRange(const gl::Buffer& from, const gl::Buffer& to, std::size_t firstFrom, std::size_t firstTo,
+               std::size_t count, std::size_t stride) {
+    glCopyNamedBufferSubData(from.name(), to.name(), GLintptr(firstFrom * stride), GLintptr(firstTo * stride),
+                             GLsizeiptr(count * stride));
 }
 
 // A buffer that no model has filled still needs a name to bind.
@@ -65,8 +67,10 @@ void Skinner::rebuild(std::span<SkinJob> jobs, std::size_t poseRowCount, const M
     chunks_.reserve(chunkCount);
     for (const SkinJob& job : jobs) {
         const GpuPrimitive& p = *job.primitive;
-        copyRange(store.attributes.buffer(), attributes_, p.firstVertex, job.targetVertex, p.vertexCount, sizeof(PackedAttribute));
-        if (store.hasUv1) copyRange(store.uv1.buffer(), uv1_, p.firstVertex, job.targetVertex, p.vertexCount, sizeof(Vec2));
+        copyRange(store.attributes.buffer(), attributes_, p.firstVertex, job.targetVertex, p.vertexCount,
+                  sizeof(PackedAttribute));
+        if (store.hasUv1)
+            copyRange(store.uv1.buffer(), uv1_, p.firstVertex, job.targetVertex, p.vertexCount, sizeof(Vec2));
     }
 }
 
@@ -97,7 +101,7 @@ void Skinner::run(std::span<const SkinJob> jobs, std::span<const Vec4> poseRows,
     if (anyFresh) {
         gatherChunks(jobs, [](const SkinJob& job) { return job.active && job.fresh; });
         dispatch(1 - current_, store);
-        activeBefore_.clear();   // the chunks are others now
+        activeBefore_.clear();  // the chunks are others now
     }
     glMemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
 }

@@ -16,18 +16,19 @@ namespace shoal::frame {
 // One primitive of one instance that is posed.
 struct SkinJob {
     const GpuPrimitive* primitive = nullptr;
-    std::uint32_t targetVertex = 0;    // first vertex in the posed buffers; set by rebuild
-    std::uint32_t jointRow = 0, weightRow = 0;   // in the pose rows
-    bool skinned = false;              // else only morphed
-    bool active = true;                // to be posed in this run
-    bool fresh = true;                 // has no frame before: its previous positions are written too
+    std::uint32_t targetVertex = 0;             // first vertex in the posed buffers; set by rebuild
+    std::uint32_t jointRow = 0, weightRow = 0;  // in the pose rows
+    bool skinned = false;                       // else only morphed
+    bool active = true;                         // to be posed in this run
+    bool fresh = true;                          // has no frame before: its previous positions are written too
 };
 
 class Skinner {
 public:
     static Result<Skinner> create(gl::Device& device);
 
-    // Places all jobs one after another, allocates the posed buffers and copies what posing does not change (uvs, colours).
+    // Places all jobs one after another, allocates the posed buffers and copies what posing does not change (uvs,
+    // colours).
     void rebuild(std::span<SkinJob> jobs, std::size_t poseRowCount, const MeshStore& store);
     // Writes the active jobs' posed vertices; what was current becomes previous. poseRows: as SkinJob says.
     void run(std::span<const SkinJob> jobs, std::span<const Vec4> poseRows, const MeshStore& store);

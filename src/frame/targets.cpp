@@ -10,7 +10,7 @@
 namespace shoal::frame {
 namespace {
 
-constexpr int kProjectionLocation = 0;   // uniform of linearize_depth.comp
+constexpr int kProjectionLocation = 0;  // uniform of linearize_depth.comp
 
 gl::Texture makeTarget(gl::Device& device, gl::Enum format, int width, int height, const char* label, int levels = 1) {
     gl::TextureDesc desc;
@@ -29,7 +29,8 @@ Result<Targets> Targets::create(gl::Device& device, int width, int height) {
     registerFrameShaders();
     Targets targets;
     targets.device_ = &device;
-    SHOAL_TRY_ASSIGN(targets.linearize_, device.programs().get({{"frame/linearize_depth.comp"}, {}, "linearize depth"}));
+    SHOAL_TRY_ASSIGN(targets.linearize_,
+                     device.programs().get({{"frame/linearize_depth.comp"}, {}, "linearize depth"}));
     SHOAL_TRY(targets.resize(width, height));
     return targets;
 }
@@ -76,13 +77,13 @@ void Targets::beginSurfaces() const {
     constexpr int kFloatTargets = 5, kObjectId = 5;
     for (int i = 0; i < kFloatTargets; ++i) glClearNamedFramebufferfv(surfaces_.name(), GL_COLOR, i, zero);
     glClearNamedFramebufferuiv(surfaces_.name(), GL_COLOR, kObjectId, nobody);
-    const GLfloat farAway = 0;   // reversed z
+    const GLfloat farAway = 0;  // reversed z
     glClearNamedFramebufferfv(surfaces_.name(), GL_DEPTH, 0, &farAway);
 }
 
 void Targets::copyOpaque() const {
-    glCopyImageSubData(radiance_.name(), GL_TEXTURE_2D, 0, 0, 0, 0, opaqueCopy_.name(), GL_TEXTURE_2D, 0, 0, 0, 0, gbuffer_.width,
-                       gbuffer_.height, 1);
+    glCopyImageSubData(radiance_.name(), GL_TEXTURE_2D, 0, 0, 0, 0, opaqueCopy_.name(), GL_TEXTURE_2D, 0, 0, 0, 0,
+                       gbuffer_.width, gbuffer_.height, 1);
     glGenerateTextureMipmap(opaqueCopy_.name());
 }
 

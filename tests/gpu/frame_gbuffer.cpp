@@ -85,7 +85,9 @@ protected:
         return p;
     }
 
-    static light::View looking(Vec3 eye, Vec3 at) { return makeView(light::cameraLookingAt(eye, at, radians(60)), kWidth, kHeight); }
+    static light::View looking(Vec3 eye, Vec3 at) {
+        return makeView(light::cameraLookingAt(eye, at, radians(60)), kWidth, kHeight);
+    }
     // Where a world point lands, pixels from the bottom left corner.
     static Vec2 pixelOf(const light::View& view, Vec3 world) {
         const Vec3 ndc = transformPoint(view.clipFromWorld(), world);
@@ -114,7 +116,7 @@ TEST_F(FrameGBuffer, HoldsAKnownQuadExactly) {
     add(modelOf({wall()}, {paint()}), desc);
     draw(contextOf(device(), looking({0, 0, 5}, {0, 0, 0})));
     const Pixel p = at(kWidth / 2, kHeight / 2);
-    const float step = 1.0f / 255;   // of 8 bits, on the square root
+    const float step = 1.0f / 255;  // of 8 bits, on the square root
     EXPECT_NEAR(std::sqrt(p.albedo.x), std::sqrt(0.5f), step);
     EXPECT_NEAR(std::sqrt(p.albedo.y), std::sqrt(0.25f), step);
     EXPECT_NEAR(std::sqrt(p.albedo.z), std::sqrt(0.04f), step);
@@ -125,8 +127,8 @@ TEST_F(FrameGBuffer, HoldsAKnownQuadExactly) {
     EXPECT_NEAR(p.f0, 0.04f, 0.16f * step);
     EXPECT_EQ(p.flags, 0u);
     EXPECT_NEAR(p.emission.x, 0, 1e-6);
-    EXPECT_NEAR(p.emission.y, 2, 2 / 64.0f);      // 6 bits of mantissa
-    EXPECT_NEAR(p.emission.z, 0.5f, 0.5f / 32);   // 5 bits
+    EXPECT_NEAR(p.emission.y, 2, 2 / 64.0f);     // 6 bits of mantissa
+    EXPECT_NEAR(p.emission.z, 0.5f, 0.5f / 32);  // 5 bits
     EXPECT_EQ(p.objectId, 4000000000u);
     EXPECT_NEAR(p.viewDepth, 5, 5e-6);
     EXPECT_EQ(p.motion, (Vec2{0, 0}));
@@ -150,7 +152,7 @@ TEST_F(FrameGBuffer, ViewDepthOfAFloorIsAnalytic) {
     const auto depth = test::readFloats(targets_->gbuffer().viewDepth, GL_RED, 1);
     const float tangent = std::tan(radians(30));
     for (int y = 0; y < kHeight / 2; ++y) {
-        const float below = tangent * (1 - 2 * (float(y) + 0.5f) / kHeight);   // slope of the pixel's ray
+        const float below = tangent * (1 - 2 * (float(y) + 0.5f) / kHeight);  // slope of the pixel's ray
         const float expected = 1.5f / below;
         EXPECT_NEAR(depth[std::size_t(y * kWidth + kWidth / 3)], expected, 2e-4f * expected) << "row " << y;
     }
@@ -178,7 +180,7 @@ TEST_F(FrameGBuffer, MotionOfAMovingEyeIsAnalytic) {
     add(modelOf({wall()}));
     Context context = contextOf(device(), looking({0.3f, 0.1f, 5}, {0.2f, 0, 0}));
     context.previousView = looking({0, 0, 5.2f}, {0, 0.1f, 0});
-    context.jitterPx = {0.3f, -0.4f};   // motion has none
+    context.jitterPx = {0.3f, -0.4f};  // motion has none
     draw(context);
     for (const Vec3 world : {Vec3{0, 0, 0}, Vec3{1.5f, -0.8f, 0}, Vec3{-2, 1, 0}}) {
         const Vec2 now = pixelOf(context.view, world), before = pixelOf(context.previousView, world);
@@ -201,7 +203,7 @@ TEST_F(FrameGBuffer, MotionOfAMovingObjectIsAnalyticAndEndsWithTheMove) {
     EXPECT_NEAR(at(80, 45).motion.x, 0.25f * pixelsPerMetre, 0.01f);
     EXPECT_NEAR(at(80, 45).motion.y, -0.125f * pixelsPerMetre, 0.01f);
     EXPECT_TRUE(geometry_->changed(view));
-    draw(contextOf(device(), view, 1));   // the same frame once more: nothing moves on
+    draw(contextOf(device(), view, 1));  // the same frame once more: nothing moves on
     EXPECT_NEAR(at(80, 45).motion.x, 0.25f * pixelsPerMetre, 0.01f);
     draw(contextOf(device(), view, 2));
     EXPECT_EQ(at(80, 45).motion, (Vec2{0, 0}));
@@ -229,7 +231,8 @@ TEST_F(FrameGBuffer, DoubleSidedSurfaceTurnsItsNormalToTheEye) {
 
 TEST_F(FrameGBuffer, NormalsAreRightUnderUnevenScale) {
     // A plane tilted by 45 degrees, stretched to twice its height: its normal follows the inverse transpose.
-    add(modelOf({quad({-9, -9, 9}, {18, 0, 0}, {0, 18, -18})}), {.worldFromModel = scaling({1, 2, 1}), .hiddenNodes = {}});
+    add(modelOf({quad({-9, -9, 9}, {18, 0, 0}, {0, 18, -18})}),
+        {.worldFromModel = scaling({1, 2, 1}), .hiddenNodes = {}});
     draw(contextOf(device(), looking({0, 3, 9}, {0, 0, 0})));
     EXPECT_NEAR(length(at(80, 45).normal - normalize(Vec3{0, 0.5f, 1})), 0, 1e-4);
 }
@@ -252,7 +255,8 @@ TEST_F(FrameGBuffer, MaskCutsWhereAlphaCrossesTheCutoff) {
     const light::View view = looking({0, 0, 5}, {0, 0, 0});
     draw(contextOf(device(), view));
     std::vector<std::uint32_t> ids(kWidth * kHeight);
-    glGetTextureImage(targets_->gbuffer().objectId.name, 0, GL_RED_INTEGER, GL_UNSIGNED_INT, GLsizei(ids.size() * 4), ids.data());
+    glGetTextureImage(targets_->gbuffer().objectId.name, 0, GL_RED_INTEGER, GL_UNSIGNED_INT, GLsizei(ids.size() * 4),
+                      ids.data());
     const float edge = pixelOf(view, {-4 + 8 * (0.25f * 255 + 0.5f) / 256, 0, 0}).x;
     for (int x = 0; x < kWidth; ++x) {
         if (std::abs(float(x) + 0.5f - edge) < 1) continue;

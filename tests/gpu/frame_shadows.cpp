@@ -122,7 +122,9 @@ light::Sun sunFrom(float elevationDeg, float azimuthDeg, float discDeg = 0) {
 
 Primitive ground(float half) { return quad({-half, 0, half}, {2 * half, 0, 0}, {0, 0, -2 * half}); }
 
-light::View eyeAt(Vec3 eye, Vec3 target) { return makeView(light::cameraLookingAt(eye, target, radians(50)), 640, 360); }
+light::View eyeAt(Vec3 eye, Vec3 target) {
+    return makeView(light::cameraLookingAt(eye, target, radians(50)), 640, 360);
+}
 
 float coarsestTexel(std::span<const NeededView> views) {
     float texel = 0;
@@ -146,12 +148,13 @@ TEST_F(FrameShadows, EdgeOfABoxLiesWhereTheSunPutsIt) {
     add(test::box({-2, 0, -20}, {0, 2, 20}));
     const light::View view = eyeAt({8, 5, 12}, {0, 0, 0});
     for (const float elevation : {15.0f, 30.0f, 45.0f, 60.0f, 75.0f}) {
-        const light::Sun sun = sunFrom(elevation, 180);   // from -x: the shadow falls to +x
+        const light::Sun sun = sunFrom(elevation, 180);  // from -x: the shadow falls to +x
         drawShadows(view, &sun);
         const float expected = 2 / std::tan(radians(elevation));
         const float step = 0.002f;
         std::vector<Question> line;
-        for (float x = std::max(expected - 1, 0.02f); x < expected + 1; x += step) line.push_back(sunAt({x, 0, 0.3f}, {0, 1, 0}));
+        for (float x = std::max(expected - 1, 0.02f); x < expected + 1; x += step)
+            line.push_back(sunAt({x, 0, 0.3f}, {0, 1, 0}));
         const float found = line[0].position.x + crossing(ask(line), step);
         // A texel of the map, seen on the ground.
         const float texel = coarsestTexel(shadows_->neededViews());
@@ -173,7 +176,7 @@ TEST_F(FrameShadows, NoLightLeaksAtTheFootOfABox) {
 
 TEST_F(FrameShadows, LitPlaneHasNoAcneAtAnySun) {
     add(ground(60));
-    add(test::box({-1, 0, -1}, {1, 1, 1}));   // something to cast, far from what is asked
+    add(test::box({-1, 0, -1}, {1, 1, 1}));  // something to cast, far from what is asked
     for (const Vec3 eye : {Vec3{20, 1.7f, 20}, Vec3{30, 15, -10}}) {
         const light::View view = eyeAt(eye, {10, 0, 5});
         for (int elevation = 5; elevation <= 85; elevation += 5)
@@ -204,13 +207,15 @@ TEST_F(FrameShadows, WithoutBiasThereIsAcne) {
     params.normalBias = 0;
     drawShadows(eyeAt({20, 1.7f, 20}, {10, 0, 5}), &sun, {}, params);
     std::vector<Question> points;
-    for (int i = 0; i < 1000; ++i) points.push_back(sunAt({8 + 0.0137f * float(i), 0, 12 - 0.0071f * float(i)}, {0, 1, 0}));
+    for (int i = 0; i < 1000; ++i)
+        points.push_back(sunAt({8 + 0.0137f * float(i), 0, 12 - 0.0071f * float(i)}, {0, 1, 0}));
     float least = 1;
     for (const float v : ask(points)) least = std::min(least, v);
     EXPECT_LT(least, 0.9f);
 }
 
-// Curved, with smooth normals that differ from the facets': lit wherever the sun is more than 5 degrees above the surface.
+// Curved, with smooth normals that differ from the facets': lit wherever the sun is more than 5 degrees above the
+// surface.
 TEST_F(FrameShadows, LitSphereHasNoAcne) {
     constexpr int kRings = 24, kSegments = 48;
     Primitive p;
@@ -232,8 +237,8 @@ TEST_F(FrameShadows, LitSphereHasNoAcne) {
     const light::Sun sun = sunFrom(35, 30, 0.2667f);
     drawShadows(eyeAt({4, 2, 3}, {0, 1, 0}), &sun);
     std::vector<Question> points;
-    for (std::size_t t = 0; t < sphere.indices.size(); t += 3) {   // facet centres
-        const std::uint32_t *i = &sphere.indices[t];
+    for (std::size_t t = 0; t < sphere.indices.size(); t += 3) {  // facet centres
+        const std::uint32_t* i = &sphere.indices[t];
         const Vec3 at = (sphere.positions[i[0]] + sphere.positions[i[1]] + sphere.positions[i[2]]) / 3.0f;
         const Vec3 n = normalize(sphere.normals[i[0]] + sphere.normals[i[1]] + sphere.normals[i[2]]);
         if (dot(n, sun.toSun) > std::sin(radians(8))) points.push_back(sunAt(at, n));
@@ -247,7 +252,7 @@ TEST_F(FrameShadows, LitSphereHasNoAcne) {
 // The penumbra of the sun's disc is 2 tan(half angle) times the distance to the blocker wide.
 TEST_F(FrameShadows, PenumbraWidensWithDistanceAsTheDiscDoes) {
     add(ground(12));
-    add(quad({-4, 4, 4}, {4, 0, 0}, {0, 0, -8}));   // a roof 4 m up, edge at x = 0, the sun in the zenith
+    add(quad({-4, 4, 4}, {4, 0, 0}, {0, 0, -8}));  // a roof 4 m up, edge at x = 0, the sun in the zenith
     light::Sun sun = sunFrom(89.9f, 180, 0.75f);
     drawShadows(eyeAt({3, 2, 3}, {0, 0, 0}), &sun);
     const float step = 0.001f;
@@ -284,7 +289,8 @@ TEST_F(FrameShadows, ShadowsDoNotCrawlAsTheEyeMoves) {
             points.push_back(sunAt({-20 + 0.2f * float(i % 200), 0, -30 + 0.43f * float(i / 200)}, {0, 1, 0}));
         const std::vector<float> v = ask(points);
         if (s == 0) lowest = highest = v;
-        for (std::size_t i = 0; i < v.size(); ++i) lowest[i] = std::min(lowest[i], v[i]), highest[i] = std::max(highest[i], v[i]);
+        for (std::size_t i = 0; i < v.size(); ++i)
+            lowest[i] = std::min(lowest[i], v[i]), highest[i] = std::max(highest[i], v[i]);
     }
     // Points change only as they pass from one cascade to the next, at shadow edges.
     std::size_t changed = 0;
@@ -335,8 +341,8 @@ TEST_F(FrameShadows, WithoutASunEverythingIsLit) {
 
 TEST_F(FrameShadows, CastersBehindTheEyeAndOutsideTheFrustumCount) {
     add(ground(80));
-    add(test::box({-3, 20, 12}, {3, 21, 18}));   // high above and behind the eye
-    light::Sun sun = sunFrom(45, 90, 0);           // from +z: its shadow falls 20 m towards -z, before the eye
+    add(test::box({-3, 20, 12}, {3, 21, 18}));  // high above and behind the eye
+    light::Sun sun = sunFrom(45, 90, 0);        // from +z: its shadow falls 20 m towards -z, before the eye
     drawShadows(eyeAt({0, 2, 5}, {0, 1, -10}), &sun);
     const std::vector<float> v = ask({sunAt({0, 0, -5}, {0, 1, 0}), sunAt({8, 0, -5}, {0, 1, 0})});
     EXPECT_EQ(v[0], 0);
@@ -346,14 +352,14 @@ TEST_F(FrameShadows, CastersBehindTheEyeAndOutsideTheFrustumCount) {
 // A spot 4 m above the ground behind a square hole's rim: the shadow's edge follows from similar triangles.
 TEST_F(FrameShadows, SpotShadowLiesWhereTheSpotPutsIt) {
     add(ground(10));
-    add(quad({-2, 2, 2}, {2, 0, 0}, {0, 0, -4}));   // 2 m up, edge at x = 0
+    add(quad({-2, 2, 2}, {2, 0, 0}, {0, 0, -4}));  // 2 m up, edge at x = 0
     light::PunctualLight spot;
     spot.kind = light::PunctualLight::Kind::spot;
     spot.position = {0.5f, 4, 0};
     spot.direction = {0, -1, 0};
     spot.outerCone = radians(40);
     spot.castsShadow = true;
-    light::PunctualLight point;   // not a spot: takes no shadow index
+    light::PunctualLight point;  // not a spot: takes no shadow index
     const light::PunctualLight lights[] = {point, spot};
     drawShadows(eyeAt({6, 4, 8}, {0, 0, 0}), nullptr, lights);
     ASSERT_EQ(shadows_->neededViews().size(), 1u);

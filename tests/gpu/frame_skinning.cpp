@@ -7,9 +7,9 @@
 #include <shoal/core/random.h>
 #include <shoal/io/model.h>
 
+#include "frame/fullscreen.h"
 #include "frame/glsl_math.h"
 #include "frame/skinning.h"
-#include "frame/fullscreen.h"
 #include "support/frame_scene.h"
 #include "support/gl_device.h"
 
@@ -17,8 +17,8 @@ namespace shoal::frame {
 namespace {
 
 // Positions and octahedral normals carry 32 and 16 bits, weights 16: see packInfluence.
-constexpr float kPositionTolerance = 1e-4f;   // of the model's size
-constexpr float kNormalTolerance = 3e-4f;     // radians; the sum of an octahedral step in, one out and the weights' steps
+constexpr float kPositionTolerance = 1e-4f;  // of the model's size
+constexpr float kNormalTolerance = 3e-4f;  // radians; the sum of an octahedral step in, one out and the weights' steps
 
 struct Posed {
     std::vector<Vec3> positions, normals;
@@ -81,7 +81,8 @@ protected:
                     for (int r = 0; r < 3; ++r) rows.push_back({m(r, 0), m(r, 1), m(r, 2), m(r, 3)});
             job.weightRow = std::uint32_t(rows.size());
             for (std::size_t k = 0; k < weights.size(); k += 4)
-                rows.push_back({weights[k], k + 1 < weights.size() ? weights[k + 1] : 0, k + 2 < weights.size() ? weights[k + 2] : 0,
+                rows.push_back({weights[k], k + 1 < weights.size() ? weights[k + 1] : 0,
+                                k + 2 < weights.size() ? weights[k + 2] : 0,
                                 k + 3 < weights.size() ? weights[k + 3] : 0});
             const auto& primitives = model.meshes[std::size_t(node.mesh)].primitives;
             for (std::size_t p = 0; p < primitives.size(); ++p) {
@@ -89,14 +90,15 @@ protected:
                 job.skinned = job.primitive->skinned && node.skin >= 0;
                 if (!job.primitive->posed()) continue;
                 jobs.push_back(job);
-                expected.push_back(poseOnCpu(primitives[p], job.skinned ? &pose.modelFromBind[std::size_t(node.skin)] : nullptr, weights));
+                expected.push_back(poseOnCpu(
+                    primitives[p], job.skinned ? &pose.modelFromBind[std::size_t(node.skin)] : nullptr, weights));
             }
         }
         ASSERT_FALSE(jobs.empty());
         skinner->rebuild(jobs, rows.size(), store);
         skinner->run(jobs, rows, store);
 
-        for (int which = 0; which < 2; ++which) {   // the previous positions of a first frame are the same
+        for (int which = 0; which < 2; ++which) {  // the previous positions of a first frame are the same
             std::vector<Vec3> positions(skinner->vertexCount());
             skinner->positions(which).read(0, std::as_writable_bytes(std::span(positions)));
             std::vector<PackedFrame> frames(skinner->vertexCount());
@@ -126,7 +128,8 @@ Model syntheticModel() {
     Primitive p;
     for (std::uint32_t i = 0; i < 1000; ++i) {
         p.positions.push_back({randomFloat(1, i) - 0.5f, randomFloat(2, i) * 2, randomFloat(3, i) - 0.5f});
-        p.normals.push_back(normalize(Vec3{randomFloat(4, i) - 0.5f, randomFloat(5, i) - 0.5f, randomFloat(6, i) - 0.45f}));
+        p.normals.push_back(
+            normalize(Vec3{randomFloat(4, i) - 0.5f, randomFloat(5, i) - 0.5f, randomFloat(6, i) - 0.45f}));
         const float a = randomFloat(7, i), b = (1 - a) * randomFloat(8, i);
         p.joints.push_back({0, 1, 2, 2});
         p.weights.push_back({a, b, 1 - a - b, 0});
@@ -154,9 +157,10 @@ Model syntheticModel() {
     tip.parent = 1;
     Node body;
     body.mesh = 0, body.skin = 0;
-    body.translation = {5, 5, 5};   // ignored: the mesh is skinned
+    body.translation = {5, 5, 5};  // ignored: the mesh is skinned
     model.nodes = {root, child, tip, body};
-    model.skins.push_back({"skin", {0, 1, 2}, {translation({0, 0, 0}), translation({0, -1, 0}), translation({0, -2, 0})}});
+    model.skins.push_back(
+        {"skin", {0, 1, 2}, {translation({0, 0, 0}), translation({0, -1, 0}), translation({0, -2, 0})}});
     return model;
 }
 
@@ -190,7 +194,7 @@ TEST_F(FrameSkinning, PreviousPositionsAreThoseOfTheFrameBefore) {
     std::vector<SkinJob> jobs(2);
     for (SkinJob& job : jobs) job.primitive = &primitive;
     jobs[1].jointRow = 9;
-    auto rowsAt = [](float x) {   // three joints each, moved by x and by -x; no morph weights
+    auto rowsAt = [](float x) {  // three joints each, moved by x and by -x; no morph weights
         std::vector<Vec4> rows;
         for (const float t : {x, -x})
             for (int joint = 0; joint < 3; ++joint) {
@@ -206,7 +210,8 @@ TEST_F(FrameSkinning, PreviousPositionsAreThoseOfTheFrameBefore) {
     auto offset = [&](int job, bool previous) {
         Vec3 p;
         const int which = previous ? 1 - skinner->current() : skinner->current();
-        skinner->positions(which).read(jobs[std::size_t(job)].targetVertex * sizeof(Vec3), std::as_writable_bytes(std::span(&p, 1)));
+        skinner->positions(which).read(jobs[std::size_t(job)].targetVertex * sizeof(Vec3),
+                                       std::as_writable_bytes(std::span(&p, 1)));
         return p.x - model.meshes[0].primitives[0].positions[0].x;
     };
     skinner->run(jobs, rowsAt(1), store);
@@ -232,7 +237,7 @@ TEST_F(FrameSkinning, PreviousPositionsAreThoseOfTheFrameBefore) {
 TEST_F(FrameSkinning, CharactersEqualTheCpu) {
     struct Case {
         const char* file;
-        float size;   // metres, about its height
+        float size;  // metres, about its height
     };
     for (const Case& c : {Case{"characters/uacp/Casual_Male.gltf", 3.3f}, Case{"characters/RobotExpressive.glb", 4.5f},
                           Case{"characters/CesiumMan.glb", 1.5f}}) {

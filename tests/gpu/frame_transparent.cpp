@@ -78,10 +78,10 @@ protected:
     std::optional<Shadows> shadows_;
 };
 
-constexpr float kStep = 2e-3f;   // two roundings to 11 bits
+constexpr float kStep = 2e-3f;  // two roundings to 11 bits
 
 TEST_F(FrameTransparent, SheetsBlendBackToFrontWhateverTheirOrder) {
-    addWall(2, unlit({0, 1, 0, 0.5f}, AlphaMode::blend));    // nearer, added first
+    addWall(2, unlit({0, 1, 0, 0.5f}, AlphaMode::blend));  // nearer, added first
     addWall(1, unlit({1, 0, 0, 0.75f}, AlphaMode::blend));
     addWall(0, unlit({0, 0, 1, 1}, AlphaMode::opaque));
     EXPECT_TRUE(geometry_->hasTransparent());

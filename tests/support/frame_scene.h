@@ -17,7 +17,8 @@
 
 namespace shoal::test {
 
-// A parallelogram from `origin` along u and v; its normal is along cross(u, v), uvs are (0, 0) at the origin and (1, 1) opposite.
+// A parallelogram from `origin` along u and v; its normal is along cross(u, v), uvs are (0, 0) at the origin and (1, 1)
+// opposite.
 inline Primitive quad(Vec3 origin, Vec3 u, Vec3 v) {
     Primitive p;
     p.positions = {origin, origin + u, origin + u + v, origin + v};

@@ -1,5 +1,6 @@
 #version 450 core
-// Opaque and masked surfaces into the G-buffer (frame::GBuffer says what each target holds). Variants: gbuffer.vert, and MASKED.
+// Opaque and masked surfaces into the G-buffer (frame::GBuffer says what each target holds). Variants: gbuffer.vert,
+// and MASKED.
 #include "frame/view.shared.h"
 #include "frame/gbuffer.lib.glsl"
 #if defined(BASE_TEXTURE) || defined(ALL_TEXTURES)

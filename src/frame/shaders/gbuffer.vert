@@ -1,6 +1,6 @@
 #version 450 core
-// Models into the G-buffer, and into the forward pass of transparent surfaces. Variants: ALL_TEXTURES (normal map and the rest),
-// BASE_TEXTURE (base colour only), neither: flat colours, all of the material travels from here.
+// Models into the G-buffer, and into the forward pass of transparent surfaces. Variants: ALL_TEXTURES (normal map and
+// the rest), BASE_TEXTURE (base colour only), neither: flat colours, all of the material travels from here.
 #include "frame/view.shared.h"
 #include "frame/geometry.shared.h"
 #include "frame/gbuffer.lib.glsl"

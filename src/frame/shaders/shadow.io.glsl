@@ -15,13 +15,14 @@ const float kLargestRadius = 10.0;    // texels that the largest filter reaches
 const int kSearchCount = 6, kShortSearchCount = 4;     // gathers of four texels each
 const int kTentCount = 4, kShortFilterCount = 9, kFilterCount = 16;    // bilinear comparisons
 
-// llvmpipe runs both sides of an `if` and skips nothing but further rounds of a loop, so what can be spared is a loop whose length
-// depends on the pixel.
+// llvmpipe runs both sides of an `if` and skips nothing but further rounds of a loop, so what can be spared is a loop
+// whose length depends on the pixel.
 
 // The next direction of discPoint: turned by the golden angle.
 vec2 turned(vec2 d) { return vec2(-0.7373688 * d.x - 0.6754903 * d.y, 0.6754903 * d.x - 0.7373688 * d.y); }
 
-// Tap i of the 3 x 3 tent by four bilinear comparisons: offset from the map's corner in texels (xy), weight (z, sum 16).
+// Tap i of the 3 x 3 tent by four bilinear comparisons: offset from the map's corner in texels (xy), weight (z, sum
+// 16).
 vec3 tentTap(int i, vec4 x, vec4 y) {
     bool right = (i & 1) != 0, up = (i & 2) != 0;
     return vec3(right ? x.y : x.x, up ? y.y : y.x, (right ? x.w : x.z) * (up ? y.w : y.z));
@@ -51,7 +52,8 @@ float cascadeVisibility(int cascade, vec3 sunPosition, vec3 sunNormal) {
     vec2 slope = receiverSlope(sunNormal) * (depthPerMetre * metresPerTexel * texels);   // depth per uv
     float radiusPerDepth = shadowBlock.sunShape.x * shadowBlock.sunShape.y / metresPerTexel;   // texels of penumbra
 
-    // What blocks the disc of the sun, and how far away it is on average. A disc smaller than the tent need not be searched.
+    // What blocks the disc of the sun, and how far away it is on average. A disc smaller than the tent need not be
+    // searched.
     float widest = (1.0 - receiver.z) * radiusPerDepth;
     int searchCount = widest <= kTentRadius ? 0 : widest <= kMiddleRadius ? kShortSearchCount : kSearchCount;
     float searchRadius = min(widest, kLargestRadius) * texel;
@@ -86,11 +88,12 @@ float cascadeVisibility(int cascade, vec3 sunPosition, vec3 sunNormal) {
     return mixed ? sum.x / sum.y : found.y > 0.0 ? 0.0 : 1.0;
 }
 
-// Visible fraction of the sun's disc, 0 on surfaces that face away. worldNormal unit; viewDepth in metres chooses the cascade; pixel is not used: a pattern that
-// followed the screen would crawl over moving surfaces.
+// Visible fraction of the sun's disc, 0 on surfaces that face away. worldNormal unit; viewDepth in metres chooses the
+// cascade; pixel is not used: a pattern that followed the screen would crawl over moving surfaces.
 float sunVisibility(vec3 worldPos, vec3 worldNormal, float viewDepth, vec2 pixel) {
     int count = int(shadowBlock.sunShape.w);
-    int cascade = int(dot(vec4(greaterThanEqual(vec4(viewDepth), shadowBlock.cascadeEnd)), vec4(1.0)));   // unused ends are far away
+    // Ends of cascades that there are not lie far away.
+    int cascade = int(dot(vec4(greaterThanEqual(vec4(viewDepth), shadowBlock.cascadeEnd)), vec4(1.0)));
     vec3 sunNormal = mat3(shadowBlock.sunFromWorld) * worldNormal;
     sunNormal.z *= shadowBlock.sunShape.x;   // the matrix measures depth in [0, 1]
     vec3 sunPosition = (shadowBlock.sunFromWorld * vec4(worldPos, 1.0)).xyz;

@@ -1,6 +1,5 @@
-// Shadow filters without textures, compiled by C++ too.
-// Sources: [Fernando 2005] Percentage-Closer Soft Shadows; [Vogel 1979] for the disc; the tent of 4 bilinear comparisons follows
-// I. Castano, "Shadow mapping summary" (2013).
+// Shadow filters without textures, compiled by C++ too. Sources: [Fernando 2005] Percentage-Closer Soft Shadows; [Vogel
+// 1979] for the disc; the tent of 4 bilinear comparisons follows I. Castano, "Shadow mapping summary" (2013).
 #ifndef SHOAL_FRAME_SHADOW_LIB_GLSL
 #define SHOAL_FRAME_SHADOW_LIB_GLSL
 
@@ -16,8 +15,8 @@ SHOAL_FUNCTION vec2 discPoint(int index, int count) {
     return vec2(r * cos(angle), r * sin(angle));
 }
 
-// Depth that a plane with unit normal n (in the sun's axes: x, y lateral, z to the sun) gains per lateral metre, metres. Slopes
-// beyond 12 (85 degrees) are cut: there the sun only grazes.
+// Depth that a plane with unit normal n (in the sun's axes: x, y lateral, z to the sun) gains per lateral metre,
+// metres. Slopes beyond 12 (85 degrees) are cut: there the sun only grazes.
 SHOAL_FUNCTION vec2 receiverSlope(vec3 n) {
     const float steepest = 12.0f;
     float z = max(n.z, 1e-3f);
@@ -26,8 +25,9 @@ SHOAL_FUNCTION vec2 receiverSlope(vec3 n) {
     return steepness > steepest ? slope * (steepest / steepness) : slope;
 }
 
-// One axis of the 3-texel tent: where two bilinear fetches go relative to the nearest texel corner, and their weights (sum 4).
-// f in [0, 1): the position behind that corner. Returns (offset 0, offset 1, weight 0, weight 1), offsets in texels.
+// One axis of the 3-texel tent: where two bilinear fetches go relative to the nearest texel corner, and their weights
+// (sum 4). f in [0, 1): the position behind that corner. Returns (offset 0, offset 1, weight 0, weight 1), offsets in
+// texels.
 SHOAL_FUNCTION vec4 tentAxis(float f) {
     float w0 = 3.0f - 2.0f * f;
     float w1 = 1.0f + 2.0f * f;

@@ -23,7 +23,7 @@ SHOAL_SHADOW_BLOCK_BEGIN {
     vec4 cascadePlace[SHOAL_MAX_CASCADES];   // uv = sun.xy * x + yz; w: metres a texel
     vec4 cascadeEnd;      // view depth in metres where each cascade ends; 1e30 for those not used
     vec4 cascadeFade;     // view depth where it begins to turn into the next one
-    vec4 sunShape;        // x: metres of depth from 0 to 1, y: penumbra half width per metre of distance to the blocker,
+    vec4 sunShape;        // x: metres of depth from 0 to 1, y: penumbra half width per metre to the blocker,
                           // z: normal bias in texels, w: cascade count, 0 for a sun without shadow
     vec4 sunMap;          // x: texels a side, y: 1 / x
     mat4 spotFromWorld[SHOAL_MAX_SPOT_SHADOWS];   // clip, then uv = 0.5 xy / w + 0.5

@@ -1,7 +1,7 @@
 #version 450 core
 // Blended and transmitting surfaces, shaded as they are drawn, back to front; premultiplied. Variants: gbuffer.vert.
-// Transmission after KHR_materials_transmission: an infinitely thin sheet that tints and blurs what lies behind it and does not bend
-// it; reflection comes on top at full strength.
+// Transmission after KHR_materials_transmission: an infinitely thin sheet that tints and blurs what lies behind it and
+// does not bend it; reflection comes on top at full strength.
 #include "frame/view.shared.h"
 #include "frame/gbuffer.lib.glsl"
 #include "frame/shadow.io.glsl"
@@ -70,7 +70,7 @@ void main() {
     if (transmission > 0.0) {
         Lobes lobes = lobesOf(s, toEye);
         through = transmitted(s.roughness, vDetail.w) * lobes.diffuse * transmission;
-        s.baseColor *= 1.0 - transmission;   // what passes does not scatter; dielectric reflection does not depend on it
+        s.baseColor *= 1.0 - transmission;   // what passes does not scatter
     }
     vec3 radiance = shadeSurface(s, toEye, viewDepth, gl_FragCoord.xy, 1.0) + emission + through;
     outRadiance = vec4(radiance * color.a, color.a);

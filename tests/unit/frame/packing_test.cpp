@@ -14,7 +14,8 @@ namespace shoal::frame {
 namespace {
 
 Vec3 randomDirection(std::uint32_t i) {
-    const float z = 2 * randomFloat(1, i) - 1, a = 2 * kPi * randomFloat(2, i), r = std::sqrt(std::max(1 - z * z, 0.0f));
+    const float z = 2 * randomFloat(1, i) - 1, a = 2 * kPi * randomFloat(2, i),
+                r = std::sqrt(std::max(1 - z * z, 0.0f));
     return {r * std::cos(a), r * std::sin(a), z};
 }
 
@@ -33,8 +34,8 @@ TEST(Packing, NormalsSurviveSixteenBitOctahedrons) {
 }
 
 TEST(Packing, OctahedronsAreExactOnTheAxes) {
-    for (const glsl::vec3 n : {glsl::vec3(0, 0, 1), glsl::vec3(0, 0, -1), glsl::vec3(1, 0, 0), glsl::vec3(-1, 0, 0), glsl::vec3(0, 1, 0),
-                               glsl::vec3(0, -1, 0)}) {
+    for (const glsl::vec3 n : {glsl::vec3(0, 0, 1), glsl::vec3(0, 0, -1), glsl::vec3(1, 0, 0), glsl::vec3(-1, 0, 0),
+                               glsl::vec3(0, 1, 0), glsl::vec3(0, -1, 0)}) {
         const glsl::vec3 back = glsl::decodeNormal(glsl::encodeNormal(n));
         EXPECT_NEAR(back.x, n.x, 1e-6);
         EXPECT_NEAR(back.y, n.y, 1e-6);
@@ -73,15 +74,17 @@ TEST(Shell, OnlyOutwardShellsOpenToTheGroundLeaveOutTheirBackFaces) {
     const Primitive box = test::box({-1, 0, -1}, {1, 2, 1});
     EXPECT_TRUE(shadowsByFrontFaces(shellOf(meshOf({box})), here));
     EXPECT_TRUE(shadowsByFrontFaces(shellOf(meshOf({box})), scaling({-2, 3, 1}))) << "a mirror keeps it closed";
-    Primitive room = box;   // seen from inside
+    Primitive room = box;  // seen from inside
     for (std::size_t i = 0; i < room.indices.size(); i += 3) std::swap(room.indices[i], room.indices[i + 1]);
     EXPECT_FALSE(shadowsByFrontFaces(shellOf(meshOf({room})), here));
-    EXPECT_FALSE(shadowsByFrontFaces(shellOf(meshOf({test::quad({0, 0, 0}, {1, 0, 0}, {0, 1, 0})})), here)) << "a single wall";
-    Primitive withoutFloor = box, withoutWall = box;   // sides in the order -z, +z, -y, +y, -x, +x
+    EXPECT_FALSE(shadowsByFrontFaces(shellOf(meshOf({test::quad({0, 0, 0}, {1, 0, 0}, {0, 1, 0})})), here))
+        << "a single wall";
+    Primitive withoutFloor = box, withoutWall = box;  // sides in the order -z, +z, -y, +y, -x, +x
     withoutFloor.indices.erase(withoutFloor.indices.begin() + 12, withoutFloor.indices.begin() + 18);
     withoutWall.indices.erase(withoutWall.indices.begin(), withoutWall.indices.begin() + 6);
     EXPECT_TRUE(shadowsByFrontFaces(shellOf(meshOf({withoutFloor})), here));
-    EXPECT_FALSE(shadowsByFrontFaces(shellOf(meshOf({withoutFloor})), rotation(axisAngle({1, 0, 0}, kPi)))) << "upside down";
+    EXPECT_FALSE(shadowsByFrontFaces(shellOf(meshOf({withoutFloor})), rotation(axisAngle({1, 0, 0}, kPi))))
+        << "upside down";
     EXPECT_FALSE(shadowsByFrontFaces(shellOf(meshOf({withoutWall})), here));
 }
 
@@ -92,7 +95,8 @@ TEST(GBufferLib, FlagsAndReflectanceSurviveEightBits) {
 }
 
 TEST(GBufferLib, ViewDepthInvertsBothProjections) {
-    const Mat4 perspective = perspectiveReversed(1, 1.5f, 0.1f), parallel = orthographicReversed(-2, 2, -1, 1, 0.5f, 90);
+    const Mat4 perspective = perspectiveReversed(1, 1.5f, 0.1f),
+               parallel = orthographicReversed(-2, 2, -1, 1, 0.5f, 90);
     for (const Mat4& m : {perspective, parallel})
         for (const float depth : {0.6f, 3.0f, 80.0f}) {
             const float z = transformPoint(m, {0.2f, 0.1f, -depth}).z;
@@ -108,7 +112,7 @@ TEST(ShadowLib, TentWeightsReproduceTheTent) {
         float weight[4] = {};
         const float offsets[2] = {t.x, t.y}, weights[2] = {t.z, t.w};
         for (int k = 0; k < 2; ++k) {
-            const float at = offsets[k] + 1;   // relative to the first texel
+            const float at = offsets[k] + 1;  // relative to the first texel
             const int left = int(std::floor(at));
             weight[left] += weights[k] * (1 - (at - float(left)));
             weight[std::min(left + 1, 3)] += weights[k] * (at - float(left));
@@ -148,7 +152,7 @@ TEST(Mips, ColoursAverageInLinearLightAndNumbersAsTheyAre) {
     const ByteImage board = checkerboard(8, 8, 255, 255);
     const auto color = makeMips(board, {.color = true});
     ASSERT_EQ(color.size(), 3u);
-    EXPECT_NEAR(color[0].pixels[0], 188, 1);   // half of the light is 188 in sRGB
+    EXPECT_NEAR(color[0].pixels[0], 188, 1);  // half of the light is 188 in sRGB
     EXPECT_NEAR(color[2].pixels[0], 188, 2);
     const auto plain = makeMips(board, {});
     EXPECT_EQ(plain[0].pixels[0], 128);
@@ -156,7 +160,7 @@ TEST(Mips, ColoursAverageInLinearLightAndNumbersAsTheyAre) {
 }
 
 TEST(Mips, ColourOfClearTexelsDoesNotBleed) {
-    const auto mips = makeMips(checkerboard(4, 4, 0, 255), {.color = true});   // black is clear, white is solid
+    const auto mips = makeMips(checkerboard(4, 4, 0, 255), {.color = true});  // black is clear, white is solid
     EXPECT_EQ(mips[0].pixels[0], 255);
     EXPECT_EQ(mips[0].pixels[3], 128);
 }
@@ -171,7 +175,7 @@ TEST(Mips, OddSizesGoDownToOneTexel) {
 }
 
 TEST(Mips, MaskedTexturesKeepTheirCoverage) {
-    ByteImage image(64, 64);   // thin twigs: a quarter of the texels reach the cutoff, scattered
+    ByteImage image(64, 64);  // thin twigs: a quarter of the texels reach the cutoff, scattered
     constexpr float kCutoff = 0.75f;
     for (std::uint32_t i = 0; i < 64 * 64; ++i) image.pixels[4 * i + 3] = std::uint8_t(256 * randomFloat(9, i));
     auto share = [](const ByteImage& mip, int cutoff) {
@@ -179,8 +183,10 @@ TEST(Mips, MaskedTexturesKeepTheirCoverage) {
         for (std::size_t i = 3; i < mip.pixels.size(); i += 4) passing += mip.pixels[i] >= cutoff;
         return double(passing) * 4 / double(mip.pixels.size());
     };
-    const auto kept = makeMips(image, {.color = true, .coverageCutoff = kCutoff}), plain = makeMips(image, {.color = true});
-    for (int level = 0; level < 3; ++level) EXPECT_NEAR(share(kept[std::size_t(level)], 192), 0.25, 0.05) << "level " << level;
+    const auto kept = makeMips(image, {.color = true, .coverageCutoff = kCutoff}),
+               plain = makeMips(image, {.color = true});
+    for (int level = 0; level < 3; ++level)
+        EXPECT_NEAR(share(kept[std::size_t(level)], 192), 0.25, 0.05) << "level " << level;
     EXPECT_LT(share(plain[2], 192), 0.01) << "without it twigs vanish";
 }
 
