@@ -1,49 +1,18 @@
 // The window, on an X server of its own (Xvfb) that is started and ended here.
 #include <epoxy/gl.h>
 #include <gtest/gtest.h>
-#include <signal.h>
 #include <stdlib.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <shoal/gl/objects.h>
 #include <shoal/gl/window.h>
 
 #include "support/gl_device.h"
+#include "support/virtual_screen.h"
 
 namespace shoal::gl {
 namespace {
 
-// Xvfb picks a free display and writes its number into a pipe when it is ready.
-class VirtualScreen {
-public:
-    VirtualScreen() {
-        int ends[2];
-        if (pipe(ends) != 0) return;
-        pid_ = fork();
-        if (pid_ == 0) {
-            close(ends[0]);
-            const std::string fd = std::to_string(ends[1]);
-            execlp("Xvfb", "Xvfb", "-displayfd", fd.c_str(), "-screen", "0", "640x480x24", "-nolisten", "tcp", nullptr);
-            _exit(127);
-        }
-        close(ends[1]);
-        char c = 0;
-        while (read(ends[0], &c, 1) == 1 && c != '\n') number_ += c;
-        close(ends[0]);
-        if (!number_.empty()) setenv("DISPLAY", (":" + number_).c_str(), 1);
-    }
-    ~VirtualScreen() {
-        if (pid_ <= 0) return;
-        kill(pid_, SIGTERM);
-        waitpid(pid_, nullptr, 0);
-    }
-    bool ok() const { return !number_.empty(); }
-
-private:
-    pid_t pid_ = -1;
-    std::string number_;
-};
+using test::VirtualScreen;
 
 TEST(GlWindow, WithoutADisplayIsNoDevice) {
     unsetenv("DISPLAY");
@@ -57,7 +26,7 @@ TEST(GlWindow, WithoutADisplayIsNoDevice) {
 
 TEST(GlWindow, DrawsAndShares) {
     const VirtualScreen screen;
-    if (!screen.ok()) GTEST_SKIP() << "Xvfb is not installed";
+    SHOAL_NEEDS_SCREEN(screen)
     test::Messages messages;
     for (bool visible : {false, true}) {
         auto window = Window::open(200, 100, "test", visible,
@@ -86,7 +55,7 @@ TEST(GlWindow, DrawsAndShares) {
 
 TEST(GlWindow, TakesTurnsWithADeviceWithoutAScreen) {
     const VirtualScreen screen;
-    if (!screen.ok()) GTEST_SKIP() << "Xvfb is not installed";
+    SHOAL_NEEDS_SCREEN(screen)
     auto window = Window::open(64, 64, "test", false);
     ASSERT_TRUE(window) << window.error().message;
     auto other = Device::create({.device = "auto", .log = {}, .shaderDir = ""});
