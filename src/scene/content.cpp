@@ -13,6 +13,7 @@
 #include <shoal/io/poses.h>
 #include <shoal/scene/shapes.h>
 
+#include "scene/bind.h"
 #include "scene/content_parts.h"
 
 namespace shoal::scene {
@@ -60,7 +61,9 @@ Result<Model> runJob(const Scene& scene, const Job& job, const LogSink& log) {
     std::vector<ShapeSetting> settings;
     for (const RawEntry& setting : job.shape->settings) settings.push_back({setting.key, setting.value});
     auto model = makeShape(job.shape->kind, settings);
-    return model ? std::move(model) : at(placeOfSetting(*job.shape, model.error().message), model.error());
+    if (model) return model;
+    const std::string& message = model.error().message;
+    return errorAt(placeOfSetting(*job.shape, message), "shape", message);  // a usage error where --set gave the value
 }
 
 Mat4 placementMatrix(const PlacementSpec& p) {
@@ -75,7 +78,8 @@ Result<int> clipIndex(const ModelEntry& entry, const Model& model) {
     if (clip >= 0) return clip;
     std::vector<std::string> names;
     for (const Clip& c : model.clips) names.push_back(c.name);
-    return badInput(entry.place.describe() + ": model " + entry.model.file + ": " + unknownWord("clip", entry.model.clip, names));
+    return badInput(entry.place.describe() + ": model " + entry.model.file + ": " +
+                    unknownWord("clip", entry.model.clip, names));
 }
 
 Result<void> addModelInstances(const ModelEntry& entry, int modelIndex, Content& content) {
@@ -146,7 +150,8 @@ void addModelLights(Content& content) {
                 continue;
             }
             light::PunctualLight to;
-            to.kind = from.kind == ModelLight::Kind::spot ? light::PunctualLight::Kind::spot : light::PunctualLight::Kind::point;
+            to.kind = from.kind == ModelLight::Kind::spot ? light::PunctualLight::Kind::spot
+                                                          : light::PunctualLight::Kind::point;
             to.position = transformPoint(worldFromNode, {0, 0, 0});
             to.direction = towards;
             to.intensity = from.intensity;
@@ -195,7 +200,8 @@ Result<void> makeLight(const Scene& scene, Content& content) {
         if (picture->channelCount < 3 || picture->width != 2 * picture->height)
             return badInput(scene.environmentPlace.describe() + ": environment.file: " + spec.file + ": found " +
                             std::to_string(picture->width) + " x " + std::to_string(picture->height) + " with " +
-                            std::to_string(picture->channelCount) + " channels, expected a lat-long picture twice as wide as high, in colour");
+                            std::to_string(picture->channelCount) +
+                            " channels, expected a lat-long picture twice as wide as high, in colour");
         light::Environment environment;
         environment.radiance = toRgb(*std::move(picture));
         environment.rotation = radians(spec.rotationDeg);
@@ -251,44 +257,80 @@ std::vector<Box> boxesOf(const Instance& instance, const Model& model) {
         if (model.nodes[i].mesh < 0) continue;
         for (const Primitive& primitive : model.meshes[std::size_t(model.nodes[i].mesh)].primitives) {
             // Skinned or morphing: the model's posed bounds stand for all of them.
-            if (model.nodes[i].skin >= 0 || !primitive.morphTargets.empty()) skinned.vertexCount += primitive.vertexCount();
-            else boxes.push_back({transformBounds(worldFromModel * pose.modelFromNode[i], primitive.bounds), primitive.vertexCount()});
+            if (model.nodes[i].skin >= 0 || !primitive.morphTargets.empty())
+                skinned.vertexCount += primitive.vertexCount();
+            else
+                boxes.push_back({transformBounds(worldFromModel * pose.modelFromNode[i], primitive.bounds),
+                                 primitive.vertexCount()});
         }
     }
     if (skinned.vertexCount > 0) boxes.push_back(skinned);
     return boxes;
 }
 
-// Bounds of all there is, and of what is worth looking at: without the few far-reaching boxes (ground, sea, sky dome) that together
-// have less than 2 % of the vertices.
-void measure(Content& content) {
+// The ground of a place: thin, low, and under most of what there is.
+bool isGround(const Bounds& box, const Bounds& all) {
+    constexpr float kCovered = 0.6f, kThinness = 0.1f, kLow = 0.25f;
+    const Vec3 size = box.size(), whole = all.size();
+    return box.lo.y - all.lo.y <= kLow * whole.y && size.x * size.z > kCovered * whole.x * whole.z &&
+           size.y < kThinness * std::max(size.x, size.z);
+}
+
+// What is worth looking at among boxes that are sorted from large to small: without grounds, without the few
+// far-reaching boxes (sea, sky dome) that together have less than 2 % of the vertices, and without what is little
+// beside the rest (pebbles) as long as that is not most of it.
+std::vector<Box> worthLookingAt(std::vector<Box> boxes, const Bounds& all) {
+    std::vector<Box> things;
+    std::copy_if(boxes.begin(), boxes.end(), std::back_inserter(things),
+                 [&](const Box& box) { return !isGround(box.bounds, all); });
+    if (things.empty()) return boxes;
+    std::size_t total = 0, first = 0, dropped = 0, little = 0;
+    for (const Box& box : things) total += box.vertexCount;
+    while (first + 1 < things.size() && 50 * (dropped + things[first].vertexCount) < total)
+        dropped += things[first++].vertexCount;
+    std::size_t end = things.size();
+    constexpr float kLittle = 0.4f;
+    while (end > first + 1 && things[end - 1].bounds.radius() < kLittle * things[first].bounds.radius() &&
+           2 * (little + things[end - 1].vertexCount) < total)
+        little += things[--end].vertexCount;
+    return {things.begin() + std::ptrdiff_t(first), things.begin() + std::ptrdiff_t(end)};
+}
+
+std::vector<Box> allBoxes(const Content& content) {
     std::vector<Box> boxes;
-    std::size_t total = 0;
     for (const Instance& instance : content.instances) {
         if (!instance.visible) continue;
-        for (const Box& box : boxesOf(instance, content.models[std::size_t(instance.model)])) {
-            boxes.push_back(box);
-            content.bounds.add(box.bounds);
-            total += box.vertexCount;
-        }
+        const std::vector<Box> more = boxesOf(instance, content.models[std::size_t(instance.model)]);
+        boxes.insert(boxes.end(), more.begin(), more.end());
     }
-    std::stable_sort(boxes.begin(), boxes.end(), [](const Box& a, const Box& b) { return a.bounds.radius() > b.bounds.radius(); });
-    std::size_t first = 0, dropped = 0;
-    while (first + 1 < boxes.size() && 50 * (dropped + boxes[first].vertexCount) < total) dropped += boxes[first++].vertexCount;
-    for (std::size_t i = first; i < boxes.size(); ++i) {
-        content.focus.add(boxes[i].bounds);
-        content.focusBoxes.push_back(boxes[i].bounds);
+    return boxes;
+}
+
+// Bounds of all there is, and of what is worth looking at.
+void measure(Content& content) {
+    std::vector<Box> boxes = allBoxes(content);
+    for (const Box& box : boxes) content.bounds.add(box.bounds);
+    std::stable_sort(boxes.begin(), boxes.end(),
+                     [](const Box& a, const Box& b) { return a.bounds.radius() > b.bounds.radius(); });
+    for (const Box& box : worthLookingAt(std::move(boxes), content.bounds)) {
+        content.focus.add(box.bounds);
+        content.focusBoxes.push_back(box.bounds);
     }
 }
 
-// A wide plane under a bare model takes its shadow. It reflects as much as the sky's own ground, so the two meet without a line. Models
-// that are places (a street, a harbour: wide and flat) bring their own ground.
+bool hasGround(const Content& content) {
+    constexpr float kPlaceWidth = 15;  // metres: a thin thing of less is a thing
+    for (const Box& box : allBoxes(content))
+        if (isGround(box.bounds, content.bounds) && std::max(box.bounds.size().x, box.bounds.size().z) > kPlaceWidth)
+            return true;
+    return false;
+}
+
+// A wide plane under a bare model takes its shadow. It reflects as much as the sky's own ground, so the two meet
+// without a line. Models that are places (a street, a harbour) bring their own ground.
 Result<void> addGround(const EnvironmentSpec& environment, Content& content) {
     const Bounds& bounds = content.bounds;
-    if (bounds.empty()) return {};
-    constexpr float kPlaceWidth = 15, kPlaceFlatness = 0.5f;
-    const float width = std::max(bounds.size().x, bounds.size().z);
-    if (width > kPlaceWidth && bounds.size().y < kPlaceFlatness * width) return {};
+    if (bounds.empty() || hasGround(content)) return {};
     FieldValue value;
     value.numbers = {std::clamp(double(60.0f * bounds.radius()), 1.0, 1000.0)};
     const ShapeSetting settings[] = {{"width", value}, {"depth", value}};
@@ -304,7 +346,8 @@ Result<void> addGround(const EnvironmentSpec& environment, Content& content) {
     instance.name = "ground";
     instance.model = int(content.models.size());
     instance.castsShadow = false;
-    instance.worldFromModel = translation({bounds.center().x, bounds.lo.y - 0.002f * bounds.radius(), bounds.center().z});
+    instance.worldFromModel =
+        translation({bounds.center().x, bounds.lo.y - 0.002f * bounds.radius(), bounds.center().z});
     content.models.push_back(std::move(plane));
     content.instances.push_back(std::move(instance));
     return {};
@@ -317,7 +360,8 @@ Mat4 transformAt(const Instance& instance, float time) {
     const WalkSpec& walk = *instance.walk;
     const std::size_t legCount = walk.points.size() - (walk.loop ? 0 : 1);
     float total = 0;
-    for (std::size_t i = 0; i < legCount; ++i) total += length(walk.points[(i + 1) % walk.points.size()] - walk.points[i]);
+    for (std::size_t i = 0; i < legCount; ++i)
+        total += length(walk.points[(i + 1) % walk.points.size()] - walk.points[i]);
     float left = std::max(0.0f, time) * walk.speed;
     if (walk.loop && total > 0) left = std::fmod(left, total);
     left = std::min(left, total);
@@ -341,7 +385,8 @@ Mat4 transformAt(const Instance& instance, float time) {
             heading = lerp(forward, previous, 0.5f * (turn - left) / turn);
         }
         const float yaw = std::atan2(heading.x, heading.z);
-        return translation(lerp(from, to, leg > 0 ? left / leg : 0)) * rotation(axisAngle({0, 1, 0}, yaw)) * instance.worldFromModel;
+        return translation(lerp(from, to, leg > 0 ? left / leg : 0)) * rotation(axisAngle({0, 1, 0}, yaw)) *
+               instance.worldFromModel;
     }
     return instance.worldFromModel;
 }
@@ -354,8 +399,10 @@ Result<Content> loadContent(const Scene& scene, const LogSink& log) {
     Result<void> lit;
     // The sky is one more job beside the files: it takes about as long.
     parallelFor(jobs.size() + 1, 1, [&](std::size_t i) {
-        if (i == 0) lit = makeLight(scene, content);
-        else made[i - 1] = runJob(scene, jobs[i - 1], log);
+        if (i == 0)
+            lit = makeLight(scene, content);
+        else
+            made[i - 1] = runJob(scene, jobs[i - 1], log);
     });
     SHOAL_TRY(lit);
     for (Result<Model>& model : made) {

@@ -68,7 +68,7 @@ waves = { kind = "sum", components = [ { amplitude = 0.1, q = 2 }, { amplitude =
     EXPECT_EQ(scene->table("water")->entries.at(0).key, "level");
     ASSERT_TRUE(scene->table("water.waves.components[1]"));
     EXPECT_EQ(scene->table("water.waves.components[1]")->entries.at(0).value.numbers.at(0), 0.2);
-    EXPECT_EQ(scene->table("post")->entries.at(0).place.line, 30);
+    EXPECT_EQ(scene->table("post")->entries.at(0).place.line, 28);
 }
 
 struct Mistake {
