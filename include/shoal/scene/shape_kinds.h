@@ -234,6 +234,47 @@ void visit(P& p, V&& v) {
 }
 Result<Model> makeHall(const HallShape& shape);
 
+// A boat along z, bow towards -z, afloat in water of level y = 0.
+struct BoatShape {
+    float length = 4.4f, beam = 1.7f, freeboard = 0.5f, draught = 0.25f;
+    bool mast = false;
+    Vec3 color{0.06f, 0.22f, 0.30f};
+    std::uint32_t seed = 1;
+};
+template <class P, class V>
+requires std::is_same_v<std::remove_const_t<P>, BoatShape>
+void visit(P& p, V&& v) {
+    v(p.length, Field{"length", "m", 1, 30, "from transom to stem"});
+    v(p.beam, Field{"beam", "m", 0.5, 10, "at its widest"});
+    v(p.freeboard, Field{"freeboard", "m", 0.2, 5, "of the rim above y = 0 amidships"});
+    v(p.draught, Field{"draught", "m", 0.05, 5, "of the keel below y = 0"});
+    v(p.mast, Field{"mast", "", 0, 1, "a mast with the sail stowed on its boom"});
+    v(p.color, Field{"color", "", 0, 1, "linear colour of the hull"});
+    v(p.seed, Field{"seed", "", 0, 4294967295.0, "other planks"});
+}
+Result<Model> makeBoat(const BoatShape& shape);
+
+// A covered walk: columns along x at z = 0 that carry a beam; roof and wall reach to z = -depth.
+struct ColonnadeShape {
+    float length = 15, depth = 3, height = 3.2f, spacing = 2.5f;
+    bool wall = true, roof = true;
+    Vec3 color{0.74f, 0.42f, 0.27f};
+    std::uint32_t seed = 1;
+};
+template <class P, class V>
+requires std::is_same_v<std::remove_const_t<P>, ColonnadeShape>
+void visit(P& p, V&& v) {
+    v(p.length, Field{"length", "m", 1, 500, "along x"});
+    v(p.depth, Field{"depth", "m", 0.5, 50, "of the walk, towards -z"});
+    v(p.height, Field{"height", "m", 1, 30, "of the columns"});
+    v(p.spacing, Field{"spacing", "m", 0.5, 20, "from column to column, about"});
+    v(p.wall, Field{"wall", "", 0, 1, "a wall behind"});
+    v(p.roof, Field{"roof", "", 0, 1, "a lean-to roof of tiles"});
+    v(p.color, Field{"color", "", 0, 1, "linear colour of the wall"});
+    v(p.seed, Field{"seed", "", 0, 4294967295.0, "other stones"});
+}
+Result<Model> makeColonnade(const ColonnadeShape& shape);
+
 // A row of plastered town houses along x: the fronts face +z at z = 0, the houses reach to z = -depth.
 struct HousesShape {
     float length = 40, depth = 9, houseWidth = 8;

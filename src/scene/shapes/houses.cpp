@@ -15,6 +15,7 @@ constexpr float kGroundFloor = 3.7f, kUpperFloor = 3.15f, kReveal = 0.2f, kEaves
 struct Row {
     ModelBuilder& builder;
     int plaster = -1, stone = -1, tiles = -1, paint = -1, glass = -1;
+    int wallKind = 0;
 };
 
 struct Opening {
@@ -238,7 +239,8 @@ void addHouse(Row& row, const HousesShape& shape, Vec3 foot, float width, Dice& 
                            {0.13f, 0.06f, 0.035f},
                            {0.12f, 0.16f, 0.12f},
                            {0.26f, 0.25f, 0.22f}};
-    const Vec3 wall = walls[dice.below(7)] * dice.range(0.9f, 1.05f), shutter = paints[dice.below(5)],
+    row.wallKind = (row.wallKind + 1 + dice.below(6)) % 7;  // never the neighbour's
+    const Vec3 wall = walls[row.wallKind] * dice.range(0.9f, 1.05f), shutter = paints[dice.below(5)],
                doorColor = paints[dice.below(5)];
     const int floors = std::max(1, shape.floors - dice.below(2));
     const float top = kGroundFloor + kUpperFloor * float(floors - 1) + 0.5f + dice.range(0, 0.5f), depth = shape.depth;
@@ -351,7 +353,7 @@ Result<Model> makeHouses(const HousesShape& shape) {
     }
     if (shape.tower) {
         builder.beginNode("tower");
-        const float height = kGroundFloor + kUpperFloor * float(shape.floors + 3) + 2;
+        const float height = kGroundFloor + kUpperFloor * float(shape.floors + 2) + 1;
         addTower(row, {shape.length * dice.range(-0.15f, 0.15f), 0, -shape.depth - 2.5f}, height, dice);
     }
     return builder.finish();

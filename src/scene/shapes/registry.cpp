@@ -24,12 +24,20 @@ Kind kindOf() {
 
 const std::map<std::string, Kind, std::less<>>& kinds() {
     static const std::map<std::string, Kind, std::less<>> all{
-        {"plane", kindOf<PlaneShape, makePlane>()},       {"box", kindOf<BoxShape, makeBox>()},
-        {"sphere", kindOf<SphereShape, makeSphere>()},    {"cylinder", kindOf<CylinderShape, makeCylinder>()},
-        {"terrain", kindOf<TerrainShape, makeTerrain>()}, {"rocks", kindOf<RocksShape, makeRocks>()},
-        {"tank", kindOf<TankShape, makeTank>()},          {"pier", kindOf<PierShape, makePier>()},
-        {"quay", kindOf<QuayShape, makeQuay>()},          {"hall", kindOf<HallShape, makeHall>()},
-        {"plaza", kindOf<PlazaShape, makePlaza>()},       {"houses", kindOf<HousesShape, makeHouses>()},
+        {"plane", kindOf<PlaneShape, makePlane>()},
+        {"box", kindOf<BoxShape, makeBox>()},
+        {"sphere", kindOf<SphereShape, makeSphere>()},
+        {"cylinder", kindOf<CylinderShape, makeCylinder>()},
+        {"terrain", kindOf<TerrainShape, makeTerrain>()},
+        {"rocks", kindOf<RocksShape, makeRocks>()},
+        {"tank", kindOf<TankShape, makeTank>()},
+        {"pier", kindOf<PierShape, makePier>()},
+        {"quay", kindOf<QuayShape, makeQuay>()},
+        {"hall", kindOf<HallShape, makeHall>()},
+        {"plaza", kindOf<PlazaShape, makePlaza>()},
+        {"houses", kindOf<HousesShape, makeHouses>()},
+        {"colonnade", kindOf<ColonnadeShape, makeColonnade>()},
+        {"boat", kindOf<BoatShape, makeBoat>()},
     };
     return all;
 }
