@@ -18,6 +18,7 @@ namespace shoal::pipeline {
 
 namespace {
 
+constexpr int kPreRoll = 8;          // samples of a temporal sequence's first frame: it has no history to rest on
 constexpr int kEndlessPattern = 0;   // samplePattern's count for temporal antialiasing
 
 // What a scene is on a device.
@@ -240,7 +241,8 @@ Result<void> Pipeline::render(const FrameRequest& request) {
     s.timer.beginFrame();
     frame::Context context = s.makeContext(request);
     const bool temporal = request.antialiasing == "temporal";
-    const int sampleCount = request.antialiasing == "supersample" ? std::max(request.samples, 1) : 1;
+    const bool first = request.frameIndex == 0;
+    const int sampleCount = temporal ? (first ? kPreRoll : 1) : request.antialiasing == "supersample" ? std::max(request.samples, 1) : 1;
     s.moveInstances(request.time);
     s.loaded->geometry->update(context);
     s.drawNeededViews(context);
@@ -251,13 +253,13 @@ Result<void> Pipeline::render(const FrameRequest& request) {
     const std::uint32_t firstSample = (request.seed - 1) * 4099;   // another place in the noise
     for (int i = 0; i < sampleCount; ++i) {
         context.sampleIndex = firstSample + std::uint32_t(i);
-        if (temporal) context.jitterPx = sampleOffset(int(request.frameIndex), kEndlessPattern, request.seed);
+        if (temporal) context.jitterPx = sampleOffset(i + (first ? 0 : int(request.frameIndex) + kPreRoll - 1), kEndlessPattern, request.seed);
         else if (sampleCount > 1) context.jitterPx = sampleOffset(i, sampleCount, request.seed);
         s.drawSample(context);
-        if (temporal) s.post.temporal(context, *s.targets, request.frameIndex == 0);
+        if (temporal) s.post.temporal(context, *s.targets, first && i == 0);
         else s.post.accumulate(context, *s.targets);
     }
-    s.post.present(context, look, request.frameIndex == 0);
+    s.post.present(context, look, first);
     s.timer.endFrame();
     const bool centred = context.jitterPx == Vec2{};
     if (!s.aovNames.empty() && !(centred && !s.wantsTerms())) {
