@@ -91,7 +91,7 @@ Result<Settings> settingsOf(const app::BenchOptions& o) {
     s.tool = std::filesystem::read_symlink("/proc/self/exe").string();
     gl::DeviceOptions deviceOptions;
     deviceOptions.device = o.device;
-    SHOAL_TRY_ASSIGN(const auto device, gl::Device::create(deviceOptions));
+    SHOAL_TRY_ASSIGN(const auto device, app::openDevice(deviceOptions));
     s.renderer = device->info().renderer;
     std::string pattern = (std::filesystem::temp_directory_path() / "shoal_bench_XXXXXX").string();
     if (!::mkdtemp(pattern.data())) return badInput(pattern + ": cannot make a scratch folder");

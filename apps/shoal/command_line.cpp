@@ -59,8 +59,8 @@ void addRender(CLI::App& app, RenderOptions& o) {
     verb->footer("\n" + aovTable() +
                  "\nExamples:\n"
                  "  shoal render scenes/plaza.toml -o plaza.png\n"
-                 "  shoal render scenes/plaza.toml -o plaza.mp4 --frames 0:120\n"
-                 "  shoal render scenes/plaza.toml -o out/f.exr --frames 0:2 --aov depth,normal --set camera.fovDeg=40\n");
+                 "  shoal render scenes/plaza.toml -o plaza.mp4 --frames 0:24 --size 640x360 --antialiasing temporal\n"
+                 "  shoal render scenes/plaza.toml -o out/f.exr --frames 0:2 --size 640x360 --aov depth,normal --set camera.fovDeg=40\n");
 }
 
 void addInfo(CLI::App& app, InfoOptions& o) {
@@ -91,7 +91,7 @@ void addDemo(CLI::App& app, DemoOptions& o) {
     verb->add_option("--size", o.size, "WIDTHxHEIGHT in pixels; default: the scenes'");
     verb->add_option("--device", o.device, kDeviceHelp);
     verb->add_flag("--film", o.film, "a film of each scene too");
-    verb->footer("\nExample:\n  shoal demo -o pictures\n");
+    verb->footer("\nExample:\n  shoal demo -o pictures --size 640x360\n");
 }
 
 void addBench(CLI::App& app, BenchOptions& o) {

@@ -3,6 +3,8 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include <shoal/core/params.h>
+
 #include "verbs.h"
 
 namespace shoal::app {
@@ -34,6 +36,19 @@ std::optional<std::pair<int, int>> parsePair(const std::string& words, char sepa
 }
 
 }  // namespace
+
+Result<std::unique_ptr<gl::Device>> openDevice(const gl::DeviceOptions& options) {
+    auto device = gl::Device::create(options);
+    if (device || device.error().kind != ErrorKind::noDevice) return device;
+    std::vector<std::string> known = {"auto", "gpu", "cpu"};
+    for (const std::string& name : known)
+        if (options.device == name) return device;
+    for (const gl::DeviceInfo& info : gl::listDevices()) {
+        if (options.device == info.name) return device;   // it is there, but cannot be used
+        known.push_back(info.name);
+    }
+    return usageError("--device: " + unknownWord("device", options.device, known) + ", expected what `shoal info --devices` lists");
+}
 
 Result<IVec2> parseSize(const std::string& words) {
     const auto pair = parsePair(words, 'x');

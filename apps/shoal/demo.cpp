@@ -86,7 +86,7 @@ Result<void> run(const DemoOptions& o) {
     gl::DeviceOptions deviceOptions;
     deviceOptions.device = o.device;
     deviceOptions.log = stderrSink();
-    SHOAL_TRY_ASSIGN(const auto device, gl::Device::create(deviceOptions));
+    SHOAL_TRY_ASSIGN(const auto device, openDevice(deviceOptions));
     SHOAL_TRY_ASSIGN(const auto pipeline, pipeline::Pipeline::create(*device));
     std::printf("drawn on %s (%s)\n", device->info().renderer.c_str(), device->info().software ? "software, CPU" : "GPU");
     std::printf("%-28s %13s %9s %9s %10s %11s\n", "picture", "size", "triangles", "load ms", "picture ms", "frame ms");

@@ -80,7 +80,7 @@ Result<void> run(const RenderOptions& o) {
     deviceOptions.device = o.device;
     deviceOptions.log = log;
     deviceOptions.debug = o.debug;
-    SHOAL_TRY_ASSIGN(const auto device, gl::Device::create(deviceOptions));
+    SHOAL_TRY_ASSIGN(const auto device, openDevice(deviceOptions));
     SHOAL_TRY_ASSIGN(const auto pipeline, pipeline::Pipeline::create(*device));
     SHOAL_TRY(pipeline->setScene(scene, std::move(content)));
 

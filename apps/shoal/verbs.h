@@ -1,11 +1,13 @@
 // The verbs of the tool: what each is given, and its exit code. The command line is read in command_line.cpp alone.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include <shoal/core/result.h>
+#include <shoal/gl/device.h>
 #include <shoal/scene/scene.h>
 
 namespace shoal::app {
@@ -58,6 +60,8 @@ struct BenchOptions {
 };
 int bench(const BenchOptions& options);
 
+// The device that --device names; an unknown name is a usage error with the nearest known one.
+Result<std::unique_ptr<gl::Device>> openDevice(const gl::DeviceOptions& options);
 // "1280x720" to a size.
 Result<IVec2> parseSize(const std::string& words);
 // "0:300" to first and end.

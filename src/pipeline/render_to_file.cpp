@@ -76,6 +76,8 @@ Result<std::vector<std::string>> renderToFile(Pipeline& pipeline, FrameRequest r
         return usageError("--frames: found " + std::to_string(options.firstFrame) + ":" + std::to_string(options.endFrame) +
                           ", expected a first frame below the end");
     const std::string extension = lowerExtension(output);
+    // Poses are written last: a place that takes none must be told before there are pictures.
+    if (!options.posesFile.empty()) SHOAL_TRY(io::AtomicFile::open(options.posesFile));
     std::optional<io::Movie> movie;
     if (isMovie(extension)) {
         SHOAL_TRY_ASSIGN(movie, io::Movie::open(output, request.width, request.height, double(options.fps), {}));
