@@ -103,9 +103,8 @@ void addSideWall(Hall& hall, Vec3 a, Vec3 b, Vec3 outward, Dice& dice) {
     for (int i = 0; i < count; ++i) {
         const float x = width * (float(i) + 0.5f);
         panels.color = Vec3{0.60f, 0.66f, 0.68f} * dice.range(0.93f, 1.05f);
-        addBox(panels, frame.at({x, (kPlinth + sill) / 2, 0}), {width / 2 - 0.004f, (sill - kPlinth) / 2, 0.045f},
-               0.012f);
-        addBox(panels, frame.at({x, (head + top) / 2, 0}), {width / 2 - 0.004f, (top - head) / 2, 0.045f}, 0.012f);
+        addBox(panels, frame.at({x, (kPlinth + sill) / 2, 0}), {width / 2, (sill - kPlinth) / 2, 0.045f}, 0.012f);
+        addBox(panels, frame.at({x, (head + top) / 2, 0}), {width / 2, (top - head) / 2, 0.045f}, 0.012f);
         for (const float rib : {-0.25f, 0.0f, 0.25f})  // ribs outside stiffen the sheet
             addBox(panels, frame.at({x + rib * width, (kPlinth + sill) / 2, 0.05f}),
                    {0.035f, (sill - kPlinth) / 2 - 0.01f, 0.02f}, 0.015f);
@@ -135,7 +134,13 @@ void addGable(Hall& hall, float z, bool gate, Dice& dice) {
         const float from = open ? gateHeight : kPlinth;
         if (!open) addBox(concrete, Frame{}.at({x, kPlinth / 2, z}), {width / 2, kPlinth / 2, 0.11f}, 0.012f);
         panels.color = Vec3{0.60f, 0.66f, 0.68f} * dice.range(0.93f, 1.05f);
-        addBox(panels, Frame{}.at({x, (from + top) / 2, z}), {width / 2 - 0.004f, (top - from) / 2, 0.045f}, 0.012f);
+        addBox(panels, Frame{}.at({x, (from + top) / 2, z}), {width / 2, (top - from) / 2, 0.045f}, 0.012f);
+    }
+    if (hall.shape.roof) {  // boards under the slope close what the panels' level tops leave open
+        panels.color = {0.5f, 0.55f, 0.57f};
+        for (const float s : {-1.0f, 1.0f})
+            addBeam(panels, {s * hall.halfWidth, hall.shape.height - 0.12f, z}, {0, hall.ridge - 0.12f, z}, 0.14f,
+                    0.34f, 0.01f);
     }
     if (!gate) return;
     Part& steel = hall.builder.part(hall.palette.steel);
