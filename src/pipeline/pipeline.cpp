@@ -203,6 +203,7 @@ Result<void> Pipeline::setScene(const scene::Scene& scene, scene::Content conten
     SHOAL_TRY(bindNamed(scene, "lighting", loaded->lightingParams));
     SHOAL_TRY(bindNamed(scene, "post", loaded->postParams));
     loaded->lightingParams.environmentIntensity *= scene.environment.intensity;
+    loaded->lightingParams.sunDisc = loaded->lightingParams.sunDisc && content.sunInBackground;
     loaded->scene = scene;
     loaded->content = std::move(content);
     SHOAL_TRY_ASSIGN(loaded->geometry, frame::Geometry::create(state_->device));

@@ -133,8 +133,16 @@ std::vector<Job> collectJobs(const Scene& scene, std::map<std::string, int>& mod
     return jobs;
 }
 
+// A model's directional light is the sun of a scene that names none; a clear sky follows it.
+void takeSun(const Scene& scene, const light::Sun& sun, Content& content) {
+    if (scene.sunOff || scene.sunGiven) return;
+    content.sun = sun;
+    if (scene.environment.kind == "clearSky")
+        content.environment = light::makeClearSky(sun.toSun, scene.environment.turbidity, scene.environment.groundAlbedo).environment;
+}
+
 // A light, camera or emitter that a model file brings along, in world space.
-void addModelLights(Content& content) {
+void addModelLights(const Scene& scene, Content& content) {
     for (const Instance& instance : content.instances) {
         const Model& model = content.models[std::size_t(instance.model)];
         if (model.lights.empty() || !instance.visible) continue;
@@ -146,7 +154,7 @@ void addModelLights(Content& content) {
             const Mat4 worldFromNode = instance.worldFromModel * pose.modelFromNode[i];
             const Vec3 towards = normalize(transformDirection(worldFromNode, {0, 0, -1}));
             if (from.kind == ModelLight::Kind::directional) {
-                if (!content.sun) content.sun = light::Sun{-towards, from.intensity, 0, true};
+                takeSun(scene, light::Sun{-towards, from.intensity, radians(scene.sun.discDeg), true}, content);
                 continue;
             }
             light::PunctualLight to;
@@ -415,7 +423,7 @@ Result<Content> loadContent(const Scene& scene, const LogSink& log) {
         SHOAL_TRY(addModelInstances(entry, modelOfFile[key], content));
     }
     for (const ShapeEntry& entry : scene.shapes) addShapeInstance(entry, int(shape++), content);
-    addModelLights(content);
+    addModelLights(scene, content);
     SHOAL_TRY(readPoses(scene, content));
     measure(content);
     if (scene.bareModel) SHOAL_TRY(addGround(scene.environment, content));

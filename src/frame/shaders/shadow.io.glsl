@@ -60,7 +60,7 @@ float cascadeVisibility(int cascade, vec3 sunPosition, vec3 sunNormal) {
     vec2 found = vec2(0.0);   // sum of depths, texels
     vec2 direction = vec2(1, 0);
     for (int i = 0; i < searchCount; ++i) {
-        vec2 offset = direction * (searchRadius * sqrt((float(i) + 0.5) / float(searchCount)));
+        vec2 offset = direction * (searchRadius * sqrt(float(i) / float(searchCount)));
         vec4 depths = textureGather(sunShadowDepth, vec3(uv + offset, layer));
         vec4 blocks = vec4(greaterThan(depths, vec4(receiver.z + dot(slope, offset))));
         found += vec2(dot(blocks, depths), dot(blocks, vec4(1.0)));
