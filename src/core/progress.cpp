@@ -77,6 +77,7 @@ void ProgressBar::update(std::uint64_t done, std::uint64_t total) {
     const bool first = terminal_ && !drawn_;  // at once: the first piece may take minutes
     const double interval = terminal_ ? kBarInterval : kLineInterval;
     if (finished_ || (!first && Seconds(now - last_).count() < interval)) return;
+    if (!terminal_ && total > 0 && done >= total) return;  // finish() writes that line; here it would stand twice
     last_ = now;
     draw(Seconds(now - start_).count());
 }

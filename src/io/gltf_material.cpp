@@ -205,7 +205,11 @@ void checkExtensions(const GltfDocument& document) {
     const JsonValue required = document.list("extensionsRequired"), used = document.list("extensionsUsed");
     for (std::size_t i = 0; i < required.size(); ++i) {
         const std::string& name = required[i].asText();
-        if (in(kReadExtensions, name) || in(kHarmlessExtensions, name)) continue;
+        if (in(kReadExtensions, name)) continue;
+        if (in(kHarmlessExtensions, name)) {
+            document.log(LogLevel::warning, fmt::format("the file needs the extension {}, which is ignored", name));
+            continue;
+        }
         const char* what = name == "KHR_draco_mesh_compression" ? " (Draco-compressed meshes)"
                            : name == "EXT_meshopt_compression"  ? " (meshopt-compressed buffers)"
                            : name == "KHR_texture_basisu"       ? " (KTX2 textures)"

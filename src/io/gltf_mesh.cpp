@@ -14,7 +14,7 @@ namespace {
 // Larger coordinates overflow when squared; no file in metres or millimetres comes near.
 constexpr float kCoordinateLimit = 1e18f;
 
-constexpr std::size_t kModeTriangles = 4, kModeStrip = 5, kModeFan = 6;
+constexpr std::size_t kModeTriangles = 4, kModeFan = 6;  // 5, the strip, is between
 
 void checkPositions(const JsonValue& where, const std::vector<Vec3>& positions, const char* what) {
     for (std::size_t i = 0; i < positions.size(); ++i) {

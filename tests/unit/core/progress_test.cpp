@@ -3,9 +3,11 @@
 #include <shoal/core/log.h>
 #include <shoal/core/progress.h>
 #include <unistd.h>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
+#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -67,6 +69,23 @@ TEST(ProgressBar, AFileGetsOneLineAtTheEndOfShortWork) {
     EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1);
     EXPECT_EQ(text.back(), '\n');
     EXPECT_EQ(text.find('\r'), std::string::npos);
+}
+
+TEST(ProgressBar, LongWorkEndsWithOneLineOfAllDone) {
+    std::FILE* file = std::tmpfile();
+    ASSERT_NE(file, nullptr);
+    {
+        ProgressBar bar("rendering", "frames", file);
+        std::this_thread::sleep_for(std::chrono::milliseconds(2050));  // lines come every two seconds
+        bar.update(19, 20);
+        std::this_thread::sleep_for(std::chrono::milliseconds(2050));
+        bar.update(20, 20);
+    }
+    const std::string text = readAll(file);
+    std::fclose(file);
+    EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 2) << text;
+    EXPECT_NE(text.find("95% 19/20"), std::string::npos) << text;
+    EXPECT_NE(text.find("100% 20/20"), std::string::npos) << text;
 }
 
 TEST(ProgressBar, WorkThatNeverBeganWritesNothing) {
