@@ -16,7 +16,7 @@ constexpr AovInfo kAovs[] = {
     {"normal", "XYZ", "", "world-space unit normal of the first opaque surface"},
     {"depth", "Z", "m", "view-space distance along the camera's axis to the first opaque surface, 0 where there is none"},
     {"motion", "XY", "px", "how far the surface moved since the frame before, x right, y down"},
-    {"objectId", "id", "", "number of the instance, from 1; 0 where there is none"},
+    {"objectId", "X", "", "number of the instance, from 1; 0 where there is none"},
     {"direct", "RGB", "W/(m2 sr)", "radiance by the sun and lamps alone"},
     {"shadow", "V", "", "visible fraction of the sun, 1 lit"},
     {"occlusion", "V", "", "ambient occlusion, 1 open"},
@@ -43,7 +43,6 @@ Image rewritten(const Image& from, const Image& viewDepth, int channelCount, con
 }
 
 std::vector<std::string> channelNames(const AovInfo& info) {
-    if (std::string_view(info.channels) == "id") return {"id"};
     std::vector<std::string> names;
     for (const char* c = info.channels; *c; ++c) names.push_back(std::string(1, *c));
     return names;
