@@ -36,13 +36,7 @@ Result<void> drawScene(pipeline::Pipeline& pipeline, const std::filesystem::path
     SHOAL_TRY(pipeline.open(file, overrides));
     const double loadSeconds = secondsSince(start);
     const scene::RenderSpec& spec = pipeline.scene().render;
-    pipeline::FrameRequest request;
-    request.width = spec.width;
-    request.height = spec.height;
-    request.time = spec.time;
-    request.antialiasing = spec.antialiasing;
-    request.samples = spec.samples;
-    request.seed = spec.seed;
+    pipeline::FrameRequest request = pipeline::requestFor(spec);
     const std::string output = (std::filesystem::path(o.folder) / file.stem()).string();
     const auto drawStart = Clock::now();
     SHOAL_TRY(pipeline::renderToFile(pipeline, request, output + ".png", {}));

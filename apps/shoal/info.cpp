@@ -6,6 +6,7 @@
 #include <shoal/core/pose.h>
 #include <shoal/gl/device.h>
 #include <shoal/io/asset.h>
+#include <shoal/io/file.h>
 #include <shoal/io/image.h>
 #include <shoal/io/model.h>
 #include <shoal/io/poses.h>
@@ -88,7 +89,7 @@ Result<void> posesInfo(const std::string& file) {
 }
 
 Result<void> fileInfo(const std::string& file) {
-    const std::string extension = std::filesystem::path(file).extension().string();
+    const std::string extension = io::lowerExtension(file);
     if (extension == ".toml") return sceneInfo(file);
     if (extension == ".csv") return posesInfo(file);
     if (extension == ".shoal") return assetInfo(file);

@@ -9,6 +9,7 @@
 #include <shoal/core/parallel.h>
 #include <shoal/core/progress.h>
 #include <shoal/gl/device.h>
+#include <shoal/io/movie.h>
 #include <shoal/pipeline/pipeline.h>
 
 #include "verbs.h"
@@ -25,6 +26,13 @@ void askToStop(int) {
     std::signal(SIGINT, SIG_DFL);   // a second ^C stops at once
 }
 
+// With digits enough to read the same number back.
+std::string words(double value) {
+    char text[40];
+    std::snprintf(text, sizeof text, "%.17g", value);
+    return text;
+}
+
 // The command line as overrides of the scene, so that one place checks every value.
 Result<std::vector<scene::Override>> overridesOf(const RenderOptions& o) {
     SHOAL_TRY_ASSIGN(std::vector<scene::Override> overrides, parseOverrides(o.sets));
@@ -33,31 +41,18 @@ Result<std::vector<scene::Override>> overridesOf(const RenderOptions& o) {
         overrides.push_back({"render.width", std::to_string(size.x)});
         overrides.push_back({"render.height", std::to_string(size.y)});
     }
-    if (o.fps) overrides.push_back({"render.fps", std::to_string(*o.fps)});
-    if (o.time) overrides.push_back({"render.time", std::to_string(*o.time)});
+    if (o.fps) overrides.push_back({"render.fps", words(*o.fps)});
+    if (o.time) overrides.push_back({"render.time", words(*o.time)});
     if (o.samples) overrides.push_back({"render.samples", std::to_string(*o.samples)});
     if (o.seed) overrides.push_back({"render.seed", std::to_string(*o.seed)});
     if (!o.antialiasing.empty()) overrides.push_back({"render.antialiasing", o.antialiasing});
     if (o.transparent) overrides.push_back({"lighting.background", "transparent"});
     if (!o.up.empty()) overrides.push_back({"model[0].up", o.up});
-    if (o.scale != 0) overrides.push_back({"model[0].unit", std::to_string(o.scale)});
+    if (o.scale) {
+        if (!(*o.scale > 0)) return usageError("--scale: found " + words(*o.scale) + ", expected metres above 0");
+        overrides.push_back({"model[0].unit", words(*o.scale)});
+    }
     return overrides;
-}
-
-pipeline::FrameRequest requestOf(const scene::RenderSpec& spec) {
-    pipeline::FrameRequest request;
-    request.width = spec.width;
-    request.height = spec.height;
-    request.time = spec.time;
-    request.antialiasing = spec.antialiasing;
-    request.samples = spec.samples;
-    request.seed = spec.seed;
-    return request;
-}
-
-bool isFilm(const std::string& output) {
-    const std::string extension = std::filesystem::path(output).extension().string();
-    return extension == ".mp4" || extension == ".mov" || extension == ".m4v";
 }
 
 Result<void> run(const RenderOptions& o) {
@@ -89,7 +84,7 @@ Result<void> run(const RenderOptions& o) {
     output.transparent = o.transparent;
     output.jpegQuality = o.quality;
     output.posesFile = o.posesFile;
-    if (output.isStill && isFilm(o.output)) {
+    if (output.isStill && io::isMovieFile(o.output)) {
         output.isStill = false;
         output.endFrame = std::max(1, int(std::lround(scene.render.duration * scene.render.fps)));
     }
@@ -102,7 +97,7 @@ Result<void> run(const RenderOptions& o) {
             return !stopAsked;
         };
     }
-    SHOAL_TRY_ASSIGN(const auto written, pipeline::renderToFile(*pipeline, requestOf(scene.render), o.output, output));
+    SHOAL_TRY_ASSIGN(const auto written, pipeline::renderToFile(*pipeline, pipeline::requestFor(scene.render), o.output, output));
     if (bar) bar->finish();
     if (o.quiet) return {};
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -12,7 +12,7 @@
 
 namespace shoal::app {
 
-// Exit codes (DESIGN §6).
+// Exit codes (docs/conventions.md).
 inline constexpr int kDone = 0, kComparisonFailed = 1, kUsage = 2, kBadInput = 3, kNoDevice = 4;
 
 // Prints "shoal: message" to stderr and gives the exit code of the error's kind.
@@ -21,13 +21,12 @@ int report(const Error& error);
 struct RenderOptions {
     std::string scene, output;
     std::string size, frames, aovs, antialiasing, device = "auto", posesFile, up;
-    std::optional<double> time, fps;
+    std::optional<double> time, fps, scale;
     std::optional<int> samples;
     std::optional<unsigned> seed;
     std::vector<std::string> sets;
     bool transparent = false, quiet = false, debug = false;
     int quality = 92, threads = 0;
-    double scale = 0;
 };
 int render(const RenderOptions& options);
 

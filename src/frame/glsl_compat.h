@@ -1,4 +1,4 @@
-// Enough of GLSL's types and functions for C++ to compile *.lib.glsl (DESIGN: scalars, vectors, arithmetic, functions
+// Enough of GLSL's types and functions for C++ to compile *.lib.glsl (scalars, vectors, arithmetic, functions
 // by value):
 //   #include "frame/glsl_compat.h"
 //   namespace shoal::frame::glsl {

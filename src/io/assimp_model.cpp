@@ -4,7 +4,6 @@
 #include "io/assimp_model.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <exception>
 #include <map>
@@ -14,6 +13,8 @@
 #include <assimp/scene.h>
 #include <fmt/format.h>
 #include <assimp/Importer.hpp>
+
+#include <shoal/io/file.h>
 
 #include "io/assimp_parts.h"
 #include "io/gltf_parts.h"
@@ -359,9 +360,7 @@ bool isAssimpExtension(const std::string& extension) {
 
 Result<Model> readAssimp(const std::filesystem::path& path, std::span<const std::byte> bytes,
                          const ModelReadOptions& options) {
-    std::string extension = path.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return char(std::tolower(c)); });
+    const std::string extension = lowerExtension(path);
     try {
         if (const std::string fault = headerFault(extension, bytes); !fault.empty()) throw ReadError{fault};
         return readScene(path, extension, options);

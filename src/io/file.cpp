@@ -1,5 +1,7 @@
 #include <shoal/io/file.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cstdint>
 #include <cstring>
@@ -113,6 +115,13 @@ Result<fs::path> createBeside(const fs::path& path) {
 }
 
 }  // namespace
+
+std::string lowerExtension(const fs::path& path) {
+    std::string extension = path.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return char(std::tolower(c)); });
+    return extension;
+}
 
 Result<std::vector<std::byte>> readFile(const fs::path& path) {
     const std::string name = path.string();

@@ -10,7 +10,7 @@ namespace shoal::io {
 
 namespace {
 
-// Lumens a watt at 555 nm: candela to W/sr, lux to W/m2 (DESIGN §3).
+// Lumens a watt at 555 nm: candela to W/sr, lux to W/m2 (docs/conventions.md).
 constexpr float kLuminousEfficacy = 683.0f;
 
 struct Tree {

@@ -1,8 +1,5 @@
 #include <shoal/io/model.h>
 
-#include <algorithm>
-#include <cctype>
-
 #include <fmt/format.h>
 
 #include <shoal/io/file.h>
@@ -12,13 +9,6 @@
 namespace shoal::io {
 
 namespace {
-
-std::string lowerExtension(const std::filesystem::path& path) {
-    std::string extension = path.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return char(std::tolower(c)); });
-    return extension;
-}
 
 bool isGltf(const std::string& extension) { return extension == ".gltf" || extension == ".glb"; }
 

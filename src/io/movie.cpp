@@ -145,14 +145,17 @@ Movie::Movie(Movie&&) noexcept = default;
 Movie& Movie::operator=(Movie&&) noexcept = default;
 Movie::~Movie() = default;
 
+bool isMovieFile(const std::filesystem::path& path) {
+    const std::string extension = lowerExtension(path);
+    return extension == ".mp4" || extension == ".m4v" || extension == ".mov";
+}
+
 namespace {
 
 Result<std::string> containerOf(const std::filesystem::path& path) {
-    const std::string extension = path.extension().string();
-    if (extension == ".mp4" || extension == ".MP4" || extension == ".m4v") return std::string("mp4");
-    if (extension == ".mov") return std::string("mov");
-    return badInput(
-        fmt::format("{}: found the extension \"{}\", expected .mp4, .m4v or .mov", path.string(), extension));
+    if (isMovieFile(path)) return std::string(lowerExtension(path) == ".mov" ? "mov" : "mp4");
+    return badInput(fmt::format("{}: found the extension \"{}\", expected .mp4, .m4v or .mov", path.string(),
+                                path.extension().string()));
 }
 
 Result<void> checkSize(const std::string& name, int width, int height) {

@@ -1,4 +1,4 @@
-// One frame, in the order of DESIGN §2: needed views, opaque surfaces, light, media, transparent surfaces, post.
+// One frame in its order: needed views, opaque surfaces, light, media, transparent surfaces, post.
 #include <shoal/pipeline/pipeline.h>
 
 #include <cmath>
@@ -35,7 +35,7 @@ struct Loaded {
     bool moves = false;                         // whether any instance walks
 };
 
-// The technique tables of DESIGN §6 that this version does not draw yet.
+// The tables of techniques that this version does not draw yet.
 Result<void> refuseUnbuilt(const scene::Scene& scene) {
     for (const scene::RawTable& table : scene.tables) {
         const std::string root = table.name.substr(0, table.name.find('.'));
@@ -86,7 +86,30 @@ Vec2 sampleOffset(int index, int count, std::uint32_t seed) {
     return {p.x > 0.5f ? p.x - 1 : p.x, p.y > 0.5f ? p.y - 1 : p.y};
 }
 
+// By the ranges that a scene file's [render] has.
+Result<void> checkRequest(const FrameRequest& request) {
+    scene::RenderSpec spec;
+    spec.width = request.width;
+    spec.height = request.height;
+    spec.time = request.time;
+    spec.antialiasing = request.antialiasing;
+    spec.samples = request.samples;
+    if (const auto valid = validate(spec); !valid) return badInput("frame request: " + valid.error().message);
+    return {};
+}
+
 }  // namespace
+
+FrameRequest requestFor(const scene::RenderSpec& spec) {
+    FrameRequest request;
+    request.width = spec.width;
+    request.height = spec.height;
+    request.time = spec.time;
+    request.antialiasing = spec.antialiasing;
+    request.samples = spec.samples;
+    request.seed = spec.seed;
+    return request;
+}
 
 struct Pipeline::State {
     gl::Device& device;
@@ -113,8 +136,6 @@ struct Pipeline::State {
 };
 
 Result<void> Pipeline::State::prepareTargets(int width, int height) {
-    if (width < 1 || height < 1 || width > 16384 || height > 16384)
-        return badInput("picture size: found " + std::to_string(width) + " x " + std::to_string(height) + ", expected 1 .. 16384 pixels");
     if (targets) return targets->resize(width, height);
     SHOAL_TRY_ASSIGN(targets, frame::Targets::create(device, width, height));
     return {};
@@ -237,13 +258,14 @@ const scene::Content& Pipeline::content() const {
 Result<void> Pipeline::render(const FrameRequest& request) {
     State& s = *state_;
     SHOAL_ASSERT_MSG(s.loaded, "setScene comes before render");
+    SHOAL_TRY(checkRequest(request));
     SHOAL_TRY(s.prepareTargets(request.width, request.height));
     gl::setKnownState();
     s.timer.beginFrame();
     frame::Context context = s.makeContext(request);
     const bool temporal = request.antialiasing == "temporal";
     const bool first = request.frameIndex == 0;
-    const int sampleCount = temporal ? (first ? kPreRoll : 1) : request.antialiasing == "supersample" ? std::max(request.samples, 1) : 1;
+    const int sampleCount = temporal ? (first ? kPreRoll : 1) : request.antialiasing == "supersample" ? request.samples : 1;
     s.moveInstances(request.time);
     s.loaded->geometry->update(context);
     s.drawNeededViews(context);

@@ -12,14 +12,6 @@ namespace shoal::pipeline {
 
 namespace {
 
-std::string lowerExtension(const std::string& output) {
-    std::string extension = std::filesystem::path(output).extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-    return extension;
-}
-
-bool isMovie(const std::string& extension) { return extension == ".mp4" || extension == ".mov" || extension == ".m4v"; }
-
 // Rotation part of a rigid matrix as a quaternion [Shepperd 1978].
 Quat quatOf(const Mat4& m) {
     const float trace = m(0, 0) + m(1, 1) + m(2, 2);
@@ -40,8 +32,8 @@ Quat quatOf(const Mat4& m) {
 }
 
 Result<void> checkOutput(const std::string& output, const OutputOptions& options) {
-    const std::string extension = lowerExtension(output);
-    const bool known = isMovie(extension) || extension == ".png" || extension == ".jpg" || extension == ".jpeg" || extension == ".exr";
+    const std::string extension = io::lowerExtension(output);
+    const bool known = io::isMovieFile(output) || extension == ".png" || extension == ".jpg" || extension == ".jpeg" || extension == ".exr";
     if (!known)
         return usageError("-o " + output + ": found \"" + extension + "\", expected .png, .jpg, .exr or .mp4");
     if (!options.aovs.empty() && extension != ".exr")
@@ -61,7 +53,7 @@ Result<void> writeExrFrame(Pipeline& pipeline, const std::string& path) {
 }
 
 Result<void> writeFrame(Pipeline& pipeline, const std::string& path, const OutputOptions& options) {
-    const std::string extension = lowerExtension(path);
+    const std::string extension = io::lowerExtension(path);
     if (extension == ".exr") return writeExrFrame(pipeline, path);
     SHOAL_TRY_ASSIGN(const ByteImage picture, pipeline.readDisplay());
     if (extension == ".png") return io::writePng(path, picture, options.transparent);
@@ -75,11 +67,10 @@ Result<std::vector<std::string>> renderToFile(Pipeline& pipeline, FrameRequest r
     if (!options.isStill && options.endFrame <= options.firstFrame)
         return usageError("--frames: found " + std::to_string(options.firstFrame) + ":" + std::to_string(options.endFrame) +
                           ", expected a first frame below the end");
-    const std::string extension = lowerExtension(output);
     // Poses are written last: a place that takes none must be told before there are pictures.
     if (!options.posesFile.empty()) SHOAL_TRY(io::AtomicFile::open(options.posesFile));
     std::optional<io::Movie> movie;
-    if (isMovie(extension)) {
+    if (io::isMovieFile(output)) {
         SHOAL_TRY_ASSIGN(movie, io::Movie::open(output, request.width, request.height, double(options.fps), {}));
     }
     pipeline.setAovs(options.aovs);

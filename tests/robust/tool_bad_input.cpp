@@ -1,4 +1,4 @@
-// Bad input to `shoal render`: one clear line, the exit code of DESIGN §6, no partial output, and an old output
+// Bad input to `shoal render`: one clear line, the exit code of docs/conventions.md, no partial output, and an old output
 // untouched.
 #include <gtest/gtest.h>
 

@@ -12,7 +12,7 @@
 
 namespace shoal {
 
-// What kind of failure; the tool turns it into its exit code (DESIGN §6).
+// What kind of failure; the tool turns it into its exit code (docs/conventions.md).
 enum class ErrorKind {
     badInput,   // a file or value that cannot be used, or an output that cannot be written: exit 3
     usage,      // an unknown verb, option, key or value on the command line: exit 2

@@ -43,7 +43,7 @@ struct Lights {
     std::span<const light::PunctualLight> punctual;
 };
 
-// Terms that a technique puts in place of the frame's own (DESIGN: light is counted once). Empty views: none.
+// Terms that a technique puts in place of the frame's own (light is counted once). Empty views: none.
 struct LightOverrides {
     gl::TextureView sunIrradiance;   // RGBA16F: replaces the sun's direct irradiance on the surface's own plane where a > 0
 };

@@ -6,12 +6,16 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include <shoal/core/result.h>
 
 namespace shoal::io {
+
+// The extension of `path` with its dot, in small letters: ".exr" of "out/F.EXR".
+std::string lowerExtension(const std::filesystem::path& path);
 
 // The largest file readFile takes.
 inline constexpr std::uintmax_t kFileSizeLimit = std::uintmax_t(4) << 30;

@@ -10,6 +10,9 @@
 
 namespace shoal::io {
 
+// Whether Movie writes files of this extension (case ignored): .mp4, .m4v, .mov.
+bool isMovieFile(const std::filesystem::path& path);
+
 struct MovieOptions {
     int crf = 18;                    // x264 quality, 0 (lossless) .. 51
     std::string preset = "medium";   // of x264: ultrafast .. veryslow

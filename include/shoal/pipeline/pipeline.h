@@ -27,10 +27,13 @@ struct FrameRequest {
     float timeStep = 1.0f / 30;          // to the frame before (motion)
     std::uint32_t frameIndex = 0;        // 0 begins a sequence: history and automatic exposure start anew
     std::string antialiasing = "supersample";   // "none", "supersample", "temporal"
-    int samples = 8;                     // of supersample
+    int samples = 8;                     // of supersample, 1..1024
     std::uint32_t seed = 1;              // shifts where samples fall in the pixel and the noise of ambient occlusion
-    std::optional<light::Camera> camera; // instead of the scene's
+    std::optional<light::Camera> camera = {};   // instead of the scene's
 };
+
+// What a scene's [render] asks for.
+FrameRequest requestFor(const scene::RenderSpec& spec);
 
 // Every AOV there is, in the order of the help: name, channels, unit and sentence.
 struct AovInfo {
@@ -56,7 +59,7 @@ public:
     const scene::Scene& scene() const;
     const scene::Content& content() const;
 
-    // Draws one frame. The result stays in display() and radiance() until the next one.
+    // Draws one frame; an error for a request out of range. The result stays in display() and radiance() until the next one.
     Result<void> render(const FrameRequest& request);
 
     gl::TextureView display() const;      // RGBA8, sRGB encoded, a = coverage

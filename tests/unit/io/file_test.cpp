@@ -101,5 +101,11 @@ TEST(File, KeepsLinksAndPermissions) {
     EXPECT_EQ(fs::status(folder / "real").permissions(), fs::perms(0640));
 }
 
+TEST(File, ExtensionsComeInSmallLetters) {
+    EXPECT_EQ(lowerExtension("out/F.EXR"), ".exr");
+    EXPECT_EQ(lowerExtension("a.tar.Gz"), ".gz");
+    EXPECT_EQ(lowerExtension("folder.d/name"), "");
+}
+
 }  // namespace
 }  // namespace shoal::io

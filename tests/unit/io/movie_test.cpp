@@ -99,6 +99,11 @@ TEST(Movie, KeepsColors) {
     EXPECT_NEAR(std::uint8_t(yuv[64 * 64 + 32 * 32 + 500]), 128 + 224 * (r - luma) / 1.5748, 2);
 }
 
+TEST(Movie, GoesByTheExtensionInAnyCase) {
+    for (const char* name : {"a.mp4", "b/a.MP4", "a.m4v", "a.Mov"}) EXPECT_TRUE(isMovieFile(name)) << name;
+    for (const char* name : {"a.png", "mp4", "a.mp4.exr", ""}) EXPECT_FALSE(isMovieFile(name)) << name;
+}
+
 TEST(Movie, SaysWhatIsWrong) {
     const TestFolder folder;
     const auto errorOf = [&](const std::filesystem::path& path, int width, int height, double fps,
