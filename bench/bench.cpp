@@ -105,6 +105,7 @@ Result<void> run(const app::BenchOptions& o) {
         for (const Benchmark& benchmark : chosen) std::printf("%-28s %s\n", benchmark.id, benchmark.sentence);
         return {};
     }
+    SHOAL_TRY(measureStartupIfAsked(o.device));
     SHOAL_TRY_ASSIGN(const Settings settings, settingsOf(o));
     std::printf("renderer: %s\n", settings.renderer.c_str());
     if (settings.repetitions < 7) std::printf("%d repetitions: not to be quoted, a figure needs 7\n", settings.repetitions);

@@ -24,35 +24,28 @@ namespace {
 
 constexpr int kWidth = 1280, kHeight = 720;
 constexpr const char* kTown = "scenes/town_street.glb";
+constexpr const char* kStartupVariable = "SHOAL_BENCH_STARTUP";   // set for the processes that time their own start
 
 struct Stage {
     std::unique_ptr<gl::Device> device;
     std::unique_ptr<pipeline::Pipeline> pipeline;
 };
 
-Result<Stage> makeStage(const Settings& settings) {
+Result<Stage> makeStage(const std::string& device) {
     Stage stage;
     gl::DeviceOptions options;
-    options.device = settings.device;
+    options.device = device;
     options.log = stderrSink();
     SHOAL_TRY_ASSIGN(stage.device, gl::Device::create(options));
     SHOAL_TRY_ASSIGN(stage.pipeline, pipeline::Pipeline::create(*stage.device));
     return stage;
 }
 
-// Start-up is measured in a process of its own: this one has its libraries and caches warm.
+// Start-up is measured in processes of its own (measureStartupIfAsked): this one has its libraries and caches warm.
 Result<std::vector<Row>> startup(const Settings& settings) {
-    if (std::getenv("SHOAL_BENCH_STARTUP")) {
-        Result<Stage> stage = badInput("not made");
-        const double seconds = timed([&] { stage = makeStage(settings); });
-        if (!stage) return stage.error();
-        std::printf("startup_ms=%.3f\n", seconds * 1000);
-        std::fflush(stdout);
-        ::_exit(0);
-    }
     std::vector<double> times;
     for (int i = -1; i < settings.repetitions; ++i) {   // the first warms the caches
-        const Ran ran = runProgram({settings.tool, "bench", "frame.startup_ms", "--device", settings.device}, {{"SHOAL_BENCH_STARTUP", "1"}});
+        const Ran ran = runProgram({settings.tool, "bench", "frame.startup_ms", "--device", settings.device}, {{kStartupVariable, "1"}});
         const std::size_t at = ran.output.find("startup_ms=");
         if (ran.exitCode != 0 || at == std::string::npos) return internalError("the start-up process failed");
         if (i >= 0) times.push_back(std::atof(ran.output.c_str() + at + 11));
@@ -77,7 +70,7 @@ struct PassSums {
 // Median time of a frame of an orbit round the scene, as a film draws it: one sample, temporal antialiasing.
 Result<std::vector<Row>> frameRow(const Settings& settings, const char* id, const std::string& file, std::vector<scene::Override> overrides,
                                   const char* what) {
-    SHOAL_TRY_ASSIGN(const Stage stage, makeStage(settings));
+    SHOAL_TRY_ASSIGN(const Stage stage, makeStage(settings.device));
     SHOAL_TRY(stage.pipeline->open(file, overrides));
     pipeline::FrameRequest request;
     request.width = kWidth;
@@ -148,7 +141,7 @@ Result<std::vector<Row>> skinned(const Settings& settings) {
 Result<std::vector<Row>> memory(const Settings& settings) {
     const std::string file = dataFile(settings, "frame.memory_mib", kTown);
     if (file.empty()) return std::vector<Row>{};
-    SHOAL_TRY_ASSIGN(const Stage stage, makeStage(settings));
+    SHOAL_TRY_ASSIGN(const Stage stage, makeStage(settings.device));
     SHOAL_TRY(stage.pipeline->open(file));
     SHOAL_TRY(stage.pipeline->render({}));
     const double held = double(stage.device->liveBytes()) / (1024 * 1024);
@@ -230,6 +223,16 @@ Result<std::vector<Row>> firstPicture(const Settings& settings) {
 }
 
 }  // namespace
+
+Result<void> measureStartupIfAsked(const std::string& device) {
+    if (!std::getenv(kStartupVariable)) return {};
+    Result<Stage> stage = badInput("not made");
+    const double seconds = timed([&] { stage = makeStage(device); });
+    if (!stage) return stage.error();
+    std::printf("startup_ms=%.3f\n", seconds * 1000);
+    std::fflush(stdout);
+    ::_exit(0);
+}
 
 std::vector<Benchmark> frameBenchmarks() {
     return {

@@ -1,4 +1,5 @@
-// What every benchmark needs: rows, medians, child processes, interleaved repetitions. DESIGN §8 says how a row is measured.
+// What every benchmark needs: rows, medians, child processes, interleaved repetitions.
+// Rows are medians of at least 7 repetitions after a warm-up, in turns with the peer on the same input.
 #pragma once
 
 #include <functional>
@@ -38,6 +39,10 @@ struct Benchmark {
 };
 const std::vector<Benchmark>& benchmarks();
 std::vector<Benchmark> frameBenchmarks();
+
+// In the processes that frame.startup_ms starts: times the start, prints it and ends the process; elsewhere does nothing.
+// Comes before anything else opens a device.
+Result<void> measureStartupIfAsked(const std::string& device);
 
 struct Spread {
     double median = 0, lowest = 0, highest = 0;
