@@ -21,6 +21,10 @@ protected:
         ASSERT_TRUE(content) << content.error().message;
         ASSERT_TRUE(pipeline_->setScene(*scene, *std::move(content)));
     }
+    void TearDown() override {
+        pipeline_.reset();  // GlTest then looks for objects that were left
+        GlTest::TearDown();
+    }
     void expectRefused(const FrameRequest& request, const std::string& mention) {
         const auto drawn = pipeline_->render(request);
         ASSERT_FALSE(drawn) << mention;
