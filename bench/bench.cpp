@@ -45,9 +45,12 @@ Result<std::vector<Benchmark>> picked(const std::vector<std::string>& names) {
 std::string quoted(const std::string& text) {
     std::string json = "\"";
     for (const char c : text) {
-        if (c == '"' || c == '\\') json += '\\', json += c;
-        else if (static_cast<unsigned char>(c) < 0x20) json += ' ';
-        else json += c;
+        if (c == '"' || c == '\\')
+            json += '\\', json += c;
+        else if (static_cast<unsigned char>(c) < 0x20)
+            json += ' ';
+        else
+            json += c;
     }
     return json + "\"";
 }
@@ -63,8 +66,9 @@ std::string jsonOf(const std::vector<Row>& rows) {
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const Row& r = rows[i];
         json += "  {\"id\": " + quoted(r.id) + ", \"value\": " + number(r.value) + ", \"unit\": " + quoted(r.unit) +
-                ", \"baseline\": " + (r.baseline > 0 ? number(r.baseline) : "null") + ", \"ratio\": " + (r.ratio > 0 ? number(r.ratio) : "null") +
-                ", \"peer\": " + quoted(r.peer) + ", \"renderer\": " + quoted(r.renderer) + ", \"method\": " + quoted(r.method) +
+                ", \"baseline\": " + (r.baseline > 0 ? number(r.baseline) : "null") +
+                ", \"ratio\": " + (r.ratio > 0 ? number(r.ratio) : "null") + ", \"peer\": " + quoted(r.peer) +
+                ", \"renderer\": " + quoted(r.renderer) + ", \"method\": " + quoted(r.method) +
                 ", \"commit\": " + quoted(SHOAL_COMMIT) + "}" + (i + 1 < rows.size() ? "," : "") + "\n";
     }
     return json + "]\n";
@@ -72,7 +76,9 @@ std::string jsonOf(const std::vector<Row>& rows) {
 
 void print(const Row& row) {
     std::printf("%-28s %10s %-5s", row.id.c_str(), number(row.value).c_str(), row.unit.c_str());
-    if (row.ratio > 0) std::printf("  %.2fx faster than %s (%s %s)", row.ratio, row.peer.c_str(), number(row.baseline).c_str(), row.unit.c_str());
+    if (row.ratio > 0)
+        std::printf("  %.2fx faster than %s (%s %s)", row.ratio, row.peer.c_str(), number(row.baseline).c_str(),
+                    row.unit.c_str());
     std::printf("  [%s]\n", row.method.c_str());
     std::fflush(stdout);
 }
@@ -108,7 +114,8 @@ Result<void> run(const app::BenchOptions& o) {
     SHOAL_TRY(measureStartupIfAsked(o.device));
     SHOAL_TRY_ASSIGN(const Settings settings, settingsOf(o));
     std::printf("renderer: %s\n", settings.renderer.c_str());
-    if (settings.repetitions < 7) std::printf("%d repetitions: not to be quoted, a figure needs 7\n", settings.repetitions);
+    if (settings.repetitions < 7)
+        std::printf("%d repetitions: not to be quoted, a figure needs 7\n", settings.repetitions);
     std::vector<Row> rows;
     Result<void> done;
     for (const Benchmark& benchmark : chosen) {

@@ -31,7 +31,8 @@ Spread spreadOf(std::vector<double> values) {
     return {median, values.front(), values.back(), int(values.size())};
 }
 
-Ran runProgram(const std::vector<std::string>& words, const std::map<std::string, std::string>& environment, bool quiet) {
+Ran runProgram(const std::vector<std::string>& words, const std::map<std::string, std::string>& environment,
+               bool quiet) {
     std::vector<char*> arguments;
     for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
     arguments.push_back(nullptr);

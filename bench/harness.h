@@ -13,52 +13,53 @@ namespace shoal::bench {
 
 // One printed number. ratio: baseline's time over ours, higher is better; 0 where there is no baseline.
 struct Row {
-    std::string id;             // stable: "frame.startup_ms"
+    std::string id;  // stable: "frame.startup_ms"
     double value = 0;
     std::string unit;
     double baseline = 0, ratio = 0;
-    std::string peer;           // what the baseline is
-    std::string renderer;       // GL_RENDERER
-    std::string method;         // how it was measured, with the spread
+    std::string peer;      // what the baseline is
+    std::string renderer;  // GL_RENDERER
+    std::string method;    // how it was measured, with the spread
 };
 
 struct Settings {
     bool peers = false;
     int repetitions = 7;
     std::string device = "auto";
-    std::string dataDir;        // "" where there is none
-    std::string tool;           // this very binary
-    std::string scratchDir;     // an empty folder, removed afterwards
+    std::string dataDir;     // "" where there is none
+    std::string tool;        // this very binary
+    std::string scratchDir;  // an empty folder, removed afterwards
     std::string renderer;
 };
 
 struct Benchmark {
     const char* id;
-    const char* sentence;       // what it measures
-    std::function<Result<std::vector<Row>>(const Settings&)> run;   // an empty list: skipped, with a line printed by it
+    const char* sentence;                                          // what it measures
+    std::function<Result<std::vector<Row>>(const Settings&)> run;  // an empty list: skipped, with a line printed by it
 };
 const std::vector<Benchmark>& benchmarks();
 std::vector<Benchmark> frameBenchmarks();
 
-// In the processes that frame.startup_ms starts: times the start, prints it and ends the process; elsewhere does nothing.
-// Comes before anything else opens a device.
+// In the processes that frame.startup_ms starts: times the start, prints it and ends the process; elsewhere does
+// nothing. Comes before anything else opens a device.
 Result<void> measureStartupIfAsked(const std::string& device);
 
 struct Spread {
     double median = 0, lowest = 0, highest = 0;
-    std::string describe(const char* unit) const;   // "median of 7, 101.2 .. 109.8 ms"
+    std::string describe(const char* unit) const;  // "median of 7, 101.2 .. 109.8 ms"
     int count = 0;
 };
 Spread spreadOf(std::vector<double> values);
 
 struct Ran {
-    int exitCode = -1;          // of the child; -1 when it could not be started
-    double seconds = 0;         // wall clock from start to end
-    double peakMib = 0;         // largest resident set
-    std::string output;         // its stdout
+    int exitCode = -1;   // of the child; -1 when it could not be started
+    double seconds = 0;  // wall clock from start to end
+    double peakMib = 0;  // largest resident set
+    std::string output;  // its stdout
 };
 // Runs a program with arguments; `environment` is added to ours. Its stderr goes to ours unless `quiet`.
-Ran runProgram(const std::vector<std::string>& words, const std::map<std::string, std::string>& environment = {}, bool quiet = true);
+Ran runProgram(const std::vector<std::string>& words, const std::map<std::string, std::string>& environment = {},
+               bool quiet = true);
 // Whether a program of this name is in PATH.
 bool haveProgram(const std::string& name);
 

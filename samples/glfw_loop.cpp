@@ -1,4 +1,5 @@
-// Shoal in a plain GLFW loop: the host owns the window and the context, Shoal draws a scene and the host puts it on the screen.
+// Shoal in a plain GLFW loop: the host owns the window and the context, Shoal draws a scene and the host puts it on the
+// screen.
 //   sample_glfw_loop SCENE_OR_MODEL [FRAMES]
 // Drag turns the camera round what is looked at, the wheel goes nearer. With FRAMES it stops by itself after so many.
 #include <cmath>
@@ -19,7 +20,8 @@ struct Orbit {
     double lastX = 0, lastY = 0;
 
     shoal::light::Camera camera() const {
-        const shoal::Vec3 toEye{std::cos(elevation) * std::sin(azimuth), std::sin(elevation), std::cos(elevation) * std::cos(azimuth)};
+        const shoal::Vec3 toEye{std::cos(elevation) * std::sin(azimuth), std::sin(elevation),
+                                std::cos(elevation) * std::cos(azimuth)};
         return shoal::light::cameraLookingAt(center + toEye * distance, center, shoal::radians(45));
     }
 };
@@ -75,7 +77,7 @@ int run(GLFWwindow* window, const char* scene, int frameCount) {
     for (int frame = 0; !glfwWindowShouldClose(window) && (frameCount == 0 || frame < frameCount); ++frame) {
         glfwPollEvents();
         glfwGetFramebufferSize(window, &request.width, &request.height);
-        if (request.width == 0 || request.height == 0) continue;   // minimised
+        if (request.width == 0 || request.height == 0) continue;  // minimised
         request.frameIndex = std::uint32_t(frame);
         const float now = float(glfwGetTime() - start);
         request.timeStep = now - request.time;

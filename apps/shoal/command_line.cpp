@@ -33,23 +33,29 @@ std::string aovTable() {
 }
 
 void addRender(CLI::App& app, RenderOptions& o) {
-    CLI::App* verb = app.add_subcommand("render", "Draws a scene, or a bare model, to a picture, numbered frames or a film");
+    CLI::App* verb =
+        app.add_subcommand("render", "Draws a scene, or a bare model, to a picture, numbered frames or a film");
     verb->add_option("scene", o.scene, "scene file (.toml) or model (.glb, .gltf, .obj, .fbx, ...)")->required();
-    verb->add_option("-o,--output", o.output, "picture (.png .jpg .exr), with --frames numbered frames, or film (.mp4)")->required();
+    verb->add_option("-o,--output", o.output, "picture (.png .jpg .exr), with --frames numbered frames, or film (.mp4)")
+        ->required();
     verb->add_option("--size", o.size, "WIDTHxHEIGHT in pixels; default: the scene's, 1280x720");
     verb->add_option("--time", o.time, "scene time in seconds of a still, or of frame 0");
     verb->add_option("--frames", o.frames, "FIRST:END, half open: frames FIRST to END - 1");
     verb->add_option("--fps", o.fps, "frames a second; default: the scene's, 30");
     verb->add_option("--samples", o.samples, "samples a pixel of supersampling; default: the scene's, 8");
-    verb->add_option("--antialiasing", o.antialiasing, "none, supersample or temporal; default: the scene's, supersample");
+    verb->add_option("--antialiasing", o.antialiasing,
+                     "none, supersample or temporal; default: the scene's, supersample");
     verb->add_option("--aov", o.aovs, aovHelp());
     verb->add_option("--poses", o.posesFile, "writes the camera pose of every frame to this CSV");
-    verb->add_option("--set", o.sets, "key=value: overrides a value of the scene, such as camera.fovDeg=40; may be repeated")
+    verb->add_option("--set", o.sets,
+                     "key=value: overrides a value of the scene, such as camera.fovDeg=40; may be repeated")
         ->take_all()
         ->expected(1);
     verb->add_option("--seed", o.seed, "seed of every random choice; default: the scene's");
     verb->add_option("--device", o.device, kDeviceHelp);
-    verb->add_option("--threads", o.threads, "threads of our own loops, 0 for all cores; the picture is the same for any")->check(CLI::Range(0, 1024));
+    verb->add_option("--threads", o.threads,
+                     "threads of our own loops, 0 for all cores; the picture is the same for any")
+        ->check(CLI::Range(0, 1024));
     verb->add_option("--quality", o.quality, "of .jpg, 1 .. 100")->check(CLI::Range(1, 100));
     verb->add_option("--up", o.up, "up axis of a bare model: y or z; default: as its file says");
     verb->add_option("--scale", o.scale, "metres a unit of a bare model stands for; default: as its file says");
@@ -60,7 +66,8 @@ void addRender(CLI::App& app, RenderOptions& o) {
                  "\nExamples:\n"
                  "  shoal render scenes/plaza.toml -o plaza.png\n"
                  "  shoal render scenes/plaza.toml -o plaza.mp4 --frames 0:24 --size 640x360 --antialiasing temporal\n"
-                 "  shoal render scenes/plaza.toml -o out/f.exr --frames 0:2 --size 640x360 --aov depth,normal --set camera.fovDeg=40\n");
+                 "  shoal render scenes/plaza.toml -o out/f.exr --frames 0:2 --size 640x360 --aov depth,normal --set "
+                 "camera.fovDeg=40\n");
 }
 
 void addInfo(CLI::App& app, InfoOptions& o) {
@@ -72,7 +79,8 @@ void addInfo(CLI::App& app, InfoOptions& o) {
 }
 
 void addCompare(CLI::App& app, CompareOptions& o) {
-    CLI::App* verb = app.add_subcommand("compare", "Tells how far two pictures are apart; exit code 1 when a limit is passed");
+    CLI::App* verb =
+        app.add_subcommand("compare", "Tells how far two pictures are apart; exit code 1 when a limit is passed");
     verb->add_option("a", o.a, "picture")->required();
     verb->add_option("b", o.b, "picture it is compared with (the reference)")->required();
     verb->add_option("--layer", o.layer, "layer of an .exr that is compared instead of the picture, such as depth");
@@ -86,7 +94,8 @@ void addCompare(CLI::App& app, CompareOptions& o) {
 }
 
 void addDemo(CLI::App& app, DemoOptions& o) {
-    CLI::App* verb = app.add_subcommand("demo", "Draws the shipped scenes and prints what was drawn, how fast and where");
+    CLI::App* verb =
+        app.add_subcommand("demo", "Draws the shipped scenes and prints what was drawn, how fast and where");
     verb->add_option("-o,--output", o.folder, "folder for the pictures; default shoal_demo");
     verb->add_option("--size", o.size, "WIDTHxHEIGHT in pixels; default: the scenes'");
     verb->add_option("--device", o.device, kDeviceHelp);
@@ -100,7 +109,8 @@ void addBench(CLI::App& app, BenchOptions& o) {
     verb->add_flag("--peers", o.peers, "runs what users would take instead in the same run");
     verb->add_flag("--list", o.list, "names the rows and what they mean");
     verb->add_option("--json", o.jsonFile, "writes the rows to this file");
-    verb->add_option("--repetitions", o.repetitions, "interleaved repetitions, at least 7 for a figure that is quoted; default 7")
+    verb->add_option("--repetitions", o.repetitions,
+                     "interleaved repetitions, at least 7 for a figure that is quoted; default 7")
         ->check(CLI::Range(1, 1000));
     verb->add_option("--data", o.dataDir, "folder with models to measure on; default: SHOAL_DATA, else ../shared/data");
     verb->add_option("--device", o.device, kDeviceHelp);
@@ -114,7 +124,8 @@ const CLI::App* findVerb(const CLI::App& app, const std::string& name) {
 
 std::vector<std::string> verbNames(const CLI::App& app) {
     std::vector<std::string> names;
-    for (const CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; })) names.push_back(verb->get_name());
+    for (const CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; }))
+        names.push_back(verb->get_name());
     return names;
 }
 
@@ -130,9 +141,12 @@ std::string unknownOption(const CLI::App& app, int argc, char** argv) {
     for (int i = verb ? 2 : 1; i < argc; ++i) {
         std::string word = argv[i];
         if (word == "--") break;
-        if (word.size() < 2 || word[0] != '-' || std::isdigit(static_cast<unsigned char>(word[1])) || word[1] == '.') continue;
-        if (word.rfind("--", 0) == 0) word = word.substr(0, word.find('='));
-        else word = word.substr(0, 2);
+        if (word.size() < 2 || word[0] != '-' || std::isdigit(static_cast<unsigned char>(word[1])) || word[1] == '.')
+            continue;
+        if (word.rfind("--", 0) == 0)
+            word = word.substr(0, word.find('='));
+        else
+            word = word.substr(0, 2);
         if (std::find(known.begin(), known.end(), word) == known.end()) return unknownWord("option", word, known);
     }
     return "";
@@ -141,12 +155,16 @@ std::string unknownOption(const CLI::App& app, int argc, char** argv) {
 }  // namespace
 
 int runCommandLine(int argc, char** argv) {
-    CLI::App app("Shoal draws light in water, crowds, liquids and scanned volumes in real time, on a GPU or a CPU, with or without a screen.",
-                 "shoal");
+    CLI::App app(
+        "Shoal draws light in water, crowds, liquids and scanned volumes in real time, on a GPU or a CPU, with or "
+        "without a screen.",
+        "shoal");
     app.set_version_flag("--version", std::string("shoal ") + SHOAL_VERSION + " (" + SHOAL_COMMIT + ")");
     app.require_subcommand(0, 1);
-    app.footer("\n`shoal VERB --help` tells more. Exit codes: 0 done, 1 a comparison failed, 2 usage, 3 bad input or unwritable output,\n"
-               "4 no usable device.\n\nExample:\n  shoal render scenes/plaza.toml -o plaza.png\n");
+    app.footer(
+        "\n`shoal VERB --help` tells more. Exit codes: 0 done, 1 a comparison failed, 2 usage, 3 bad input or "
+        "unwritable output,\n"
+        "4 no usable device.\n\nExample:\n  shoal render scenes/plaza.toml -o plaza.png\n");
     RenderOptions renderOptions;
     InfoOptions infoOptions;
     CompareOptions compareOptions;
@@ -167,7 +185,7 @@ int runCommandLine(int argc, char** argv) {
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
-        if (e.get_exit_code() == 0) return app.exit(e);   // --help, --version
+        if (e.get_exit_code() == 0) return app.exit(e);  // --help, --version
         const std::string unknown = unknownOption(app, argc, argv);
         return report(usageError(unknown.empty() ? std::string(e.what()) : unknown));
     }

@@ -12,11 +12,15 @@ namespace shoal::app {
 int report(const Error& error) {
     std::fprintf(stderr, "shoal: %s\n", error.message.c_str());
     switch (error.kind) {
-    case ErrorKind::usage: return kUsage;
-    case ErrorKind::noDevice: return kNoDevice;
-    case ErrorKind::cancelled: return 130;
-    case ErrorKind::badInput:
-    case ErrorKind::internal: return kBadInput;
+        case ErrorKind::usage:
+            return kUsage;
+        case ErrorKind::noDevice:
+            return kNoDevice;
+        case ErrorKind::cancelled:
+            return 130;
+        case ErrorKind::badInput:
+        case ErrorKind::internal:
+            return kBadInput;
     }
     return kBadInput;
 }
@@ -44,16 +48,18 @@ Result<std::unique_ptr<gl::Device>> openDevice(const gl::DeviceOptions& options)
     for (const std::string& name : known)
         if (options.device == name) return device;
     for (const gl::DeviceInfo& info : gl::listDevices()) {
-        if (options.device == info.name) return device;   // it is there, but cannot be used
+        if (options.device == info.name) return device;  // it is there, but cannot be used
         known.push_back(info.name);
     }
-    return usageError("--device: " + unknownWord("device", options.device, known) + ", expected what `shoal info --devices` lists");
+    return usageError("--device: " + unknownWord("device", options.device, known) +
+                      ", expected what `shoal info --devices` lists");
 }
 
 Result<IVec2> parseSize(const std::string& words) {
     const auto pair = parsePair(words, 'x');
     if (!pair || pair->first < 1 || pair->second < 1 || pair->first > 16384 || pair->second > 16384)
-        return usageError("--size: found " + words + ", expected WIDTHxHEIGHT with 1 .. 16384 pixels, such as 1280x720");
+        return usageError("--size: found " + words +
+                          ", expected WIDTHxHEIGHT with 1 .. 16384 pixels, such as 1280x720");
     return IVec2{pair->first, pair->second};
 }
 
@@ -79,7 +85,8 @@ Result<std::string> scenesFolder() {
     const std::filesystem::path binary = std::filesystem::read_symlink("/proc/self/exe", error);
     const std::filesystem::path folder = binary.parent_path().parent_path() / "share" / "shoal" / "scenes";
     if (!error && std::filesystem::is_directory(folder, error)) return folder.string();
-    return badInput(folder.string() + ": no such folder, expected the shipped scenes there (or name them in SHOAL_SCENES)");
+    return badInput(folder.string() +
+                    ": no such folder, expected the shipped scenes there (or name them in SHOAL_SCENES)");
 }
 
 }  // namespace shoal::app

@@ -41,9 +41,11 @@ Image firstChannels(const Image& from, int channelCount) {
 }
 
 Result<void> writeDifference(const CompareOptions& o, const Image& a, const Image& b) {
-    Image difference = differenceImage(firstChannels(a, std::min(a.channelCount, 3)), firstChannels(b, std::min(b.channelCount, 3)), float(o.gain));
+    Image difference = differenceImage(firstChannels(a, std::min(a.channelCount, 3)),
+                                       firstChannels(b, std::min(b.channelCount, 3)), float(o.gain));
     const auto format = io::imageFormatOf(std::filesystem::path(o.differenceFile));
-    if (format == io::ImageFormat::exr) return io::writeExr(o.differenceFile, std::vector<Layer>{{"", std::move(difference)}}, {});
+    if (format == io::ImageFormat::exr)
+        return io::writeExr(o.differenceFile, std::vector<Layer>{{"", std::move(difference)}}, {});
     ByteImage bytes(difference.width, difference.height);
     for (int y = 0; y < difference.height; ++y)
         for (int x = 0; x < difference.width; ++x)
@@ -64,9 +66,11 @@ Result<int> run(const CompareOptions& o) {
     auto compared = shoal::compare(a, b);
     if (!compared) return badInput(o.a + " and " + o.b + ": " + compared.error().message);
     const Comparison& c = *compared;
-    std::printf("rmse %.8g\npsnr %.4f dB\nssim %.6f\nlargest %.8g at (%d, %d)\nmean %.8g and %.8g\ndiffering pixels %zu of %zu\n", c.rmse,
-                c.psnr, c.ssim, c.largest, c.largestX, c.largestY, c.meanA, c.meanB, c.differingPixels,
-                std::size_t(a.width) * std::size_t(a.height));
+    std::printf(
+        "rmse %.8g\npsnr %.4f dB\nssim %.6f\nlargest %.8g at (%d, %d)\nmean %.8g and %.8g\ndiffering pixels %zu of "
+        "%zu\n",
+        c.rmse, c.psnr, c.ssim, c.largest, c.largestX, c.largestY, c.meanA, c.meanB, c.differingPixels,
+        std::size_t(a.width) * std::size_t(a.height));
     if (!o.differenceFile.empty()) SHOAL_TRY(writeDifference(o, a, b));
     int exit = kDone;
     const auto fail = [&](const char* what, double found, const char* relation, double limit) {

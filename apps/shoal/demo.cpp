@@ -54,8 +54,8 @@ Result<void> drawScene(pipeline::Pipeline& pipeline, const std::filesystem::path
     long long triangles = 0;
     for (const auto& [name, value] : pipeline.stats().counts)
         if (name == "drawn triangles") triangles = value;
-    std::printf("%-28s %5d x %-5d %9lld %9.0f %10.0f %11.1f\n", (output + ".png").c_str(), spec.width, spec.height, triangles,
-                loadSeconds * 1000, drawSeconds * 1000, frameMs);
+    std::printf("%-28s %5d x %-5d %9lld %9.0f %10.0f %11.1f\n", (output + ".png").c_str(), spec.width, spec.height,
+                triangles, loadSeconds * 1000, drawSeconds * 1000, frameMs);
     std::fflush(stdout);
     if (!o.film) return {};
     ProgressBar bar("filming " + file.stem().string(), "frames", stderr);
@@ -82,10 +82,12 @@ Result<void> run(const DemoOptions& o) {
     deviceOptions.log = stderrSink();
     SHOAL_TRY_ASSIGN(const auto device, openDevice(deviceOptions));
     SHOAL_TRY_ASSIGN(const auto pipeline, pipeline::Pipeline::create(*device));
-    std::printf("drawn on %s (%s)\n", device->info().renderer.c_str(), device->info().software ? "software, CPU" : "GPU");
+    std::printf("drawn on %s (%s)\n", device->info().renderer.c_str(),
+                device->info().software ? "software, CPU" : "GPU");
     std::printf("%-28s %13s %9s %9s %10s %11s\n", "picture", "size", "triangles", "load ms", "picture ms", "frame ms");
     for (const auto& file : scenes) SHOAL_TRY(drawScene(*pipeline, file, o, overrides));
-    std::printf("picture ms: antialiased still with PNG; frame ms: one frame of a film, %s\n", gl::FrameTimer::method(*device));
+    std::printf("picture ms: antialiased still with PNG; frame ms: one frame of a film, %s\n",
+                gl::FrameTimer::method(*device));
     return {};
 }
 

@@ -19,7 +19,8 @@ void printTable(const std::string& title, const std::vector<FieldRow>& rows) {
     for (const FieldRow& row : rows) {
         std::string range;
         for (const char c : row.range) range += c == '|' ? std::string("\\|") : std::string(1, c);
-        std::printf("| `%s` | %s | %s | %s | %s |\n", row.name.c_str(), row.unit.c_str(), range.c_str(), row.value.c_str(), row.sentence.c_str());
+        std::printf("| `%s` | %s | %s | %s | %s |\n", row.name.c_str(), row.unit.c_str(), range.c_str(),
+                    row.value.c_str(), row.sentence.c_str());
     }
     std::printf("\n");
 }
@@ -41,7 +42,8 @@ int printKeys() {
     printTable("[shadows]", describe(frame::ShadowParams{}));
     printTable("[lighting]", describe(frame::LightingParams{}));
     printTable("[post]", describe(frame::PostParams{}));
-    for (const std::string& kind : scene::shapeNames()) printTable("[[shape]] kind = \"" + kind + "\"", scene::describeShape(kind));
+    for (const std::string& kind : scene::shapeNames())
+        printTable("[[shape]] kind = \"" + kind + "\"", scene::describeShape(kind));
     return kDone;
 }
 

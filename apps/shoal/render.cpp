@@ -23,7 +23,7 @@ std::atomic<bool> stopAsked = false;
 
 void askToStop(int) {
     stopAsked = true;
-    std::signal(SIGINT, SIG_DFL);   // a second ^C stops at once
+    std::signal(SIGINT, SIG_DFL);  // a second ^C stops at once
 }
 
 // With digits enough to read the same number back.
@@ -97,13 +97,15 @@ Result<void> run(const RenderOptions& o) {
             return !stopAsked;
         };
     }
-    SHOAL_TRY_ASSIGN(const auto written, pipeline::renderToFile(*pipeline, pipeline::requestFor(scene.render), o.output, output));
+    SHOAL_TRY_ASSIGN(const auto written,
+                     pipeline::renderToFile(*pipeline, pipeline::requestFor(scene.render), o.output, output));
     if (bar) bar->finish();
     if (o.quiet) return {};
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     const int frames = output.isStill ? 1 : output.endFrame - output.firstFrame;
-    std::printf("%s%s: %d x %d, %d frame%s in %.2f s on %s\n", written.front().c_str(), written.size() > 1 ? " ..." : "",
-                scene.render.width, scene.render.height, frames, frames == 1 ? "" : "s", seconds, device->info().renderer.c_str());
+    std::printf("%s%s: %d x %d, %d frame%s in %.2f s on %s\n", written.front().c_str(),
+                written.size() > 1 ? " ..." : "", scene.render.width, scene.render.height, frames,
+                frames == 1 ? "" : "s", seconds, device->info().renderer.c_str());
     return {};
 }
 

@@ -39,7 +39,7 @@ int info(const InfoOptions& options);
 int printKeys();
 
 struct CompareOptions {
-    std::string a, b, layer, differenceFile;   // layer: "" the main picture
+    std::string a, b, layer, differenceFile;  // layer: "" the main picture
     std::optional<double> maxRmse, minPsnr, minSsim, maxError;
     double gain = 4;
 };

@@ -1,11 +1,11 @@
 #include "bench/peers/f3d.h"
 
-#include <csignal>
-#include <cstdio>
-#include <filesystem>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
 
 #include <shoal/io/image.h>
 #include <shoal/scene/content.h>
@@ -28,8 +28,10 @@ Result<int> startXvfb(std::string& display) {
         const std::string socket = "/tmp/.X11-unix/X" + std::to_string(number);
         if (std::filesystem::exists(socket)) continue;
         display = ":" + std::to_string(number);
-        char* arguments[] = {const_cast<char*>("Xvfb"), display.data(), const_cast<char*>("-screen"), const_cast<char*>("0"),
-                             const_cast<char*>("1600x1200x24"), const_cast<char*>("-nolisten"), const_cast<char*>("tcp"), nullptr};
+        char* arguments[] = {const_cast<char*>("Xvfb"),         display.data(),
+                             const_cast<char*>("-screen"),      const_cast<char*>("0"),
+                             const_cast<char*>("1600x1200x24"), const_cast<char*>("-nolisten"),
+                             const_cast<char*>("tcp"),          nullptr};
         posix_spawn_file_actions_t actions;
         posix_spawn_file_actions_init(&actions);
         posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", 1, 0);
@@ -67,9 +69,20 @@ Result<std::unique_ptr<F3d>> F3d::start(const Settings& settings, const std::str
     f3d->width_ = width;
     f3d->height_ = height;
     f3d->picture_ = settings.scratchDir + "/f3d.png";
-    f3d->command_ = {"f3d", model, "--dry-run", "--quiet", "--output", f3d->picture_, "--no-background",
-                     "--resolution=" + std::to_string(width) + "," + std::to_string(height), "--ssao", "--fxaa", "--tone-mapping",
-                     "--camera-position=" + words(eye), "--camera-focal-point=" + words(target), "--camera-view-up=0,1,0",
+    f3d->command_ = {"f3d",
+                     model,
+                     "--dry-run",
+                     "--quiet",
+                     "--output",
+                     f3d->picture_,
+                     "--no-background",
+                     "--resolution=" + std::to_string(width) + "," + std::to_string(height),
+                     "--ssao",
+                     "--fxaa",
+                     "--tone-mapping",
+                     "--camera-position=" + words(eye),
+                     "--camera-focal-point=" + words(target),
+                     "--camera-view-up=0,1,0",
                      "--camera-view-angle=" + std::to_string(degrees(camera.verticalFov))};
     return f3d;
 }
@@ -88,18 +101,19 @@ Ran F3d::draw(const std::map<std::string, std::string>& environment) const {
 
 Result<double> F3d::coverageOverlap() const {
     const std::string ours = settings_.scratchDir + "/ours_coverage.exr";
-    const Ran ran = runProgram({settings_.tool, "render", model_, "-o", ours, "--quiet", "--device", settings_.device, "--size",
-                                std::to_string(width_) + "x" + std::to_string(height_), "--aov", "objectId"});
+    const Ran ran = runProgram({settings_.tool, "render", model_, "-o", ours, "--quiet", "--device", settings_.device,
+                                "--size", std::to_string(width_) + "x" + std::to_string(height_), "--aov", "objectId"});
     if (ran.exitCode != 0) return internalError("shoal render failed");
     SHOAL_TRY_ASSIGN(const std::vector<Layer> layers, io::readLayers(ours));
     SHOAL_TRY_ASSIGN(const ByteImage theirs, io::readByteImage(picture_));
     const Image* ids = nullptr;
     for (const Layer& layer : layers)
         if (layer.name == "objectId") ids = &layer.image;
-    if (!ids || theirs.width != ids->width || theirs.height != ids->height) return internalError("the pictures' sizes differ");
+    if (!ids || theirs.width != ids->width || theirs.height != ids->height)
+        return internalError("the pictures' sizes differ");
     std::size_t both = 0, either = 0;
     for (std::size_t i = 0; i < ids->pixels.size(); ++i) {
-        const bool a = ids->pixels[i] == 1;   // the model; the ground is number 2
+        const bool a = ids->pixels[i] == 1;  // the model; the ground is number 2
         const bool b = theirs.pixels[i * 4 + 3] > 127;
         both += a && b;
         either += a || b;

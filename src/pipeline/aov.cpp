@@ -14,7 +14,8 @@ constexpr AovInfo kAovs[] = {
     {"radiance", "RGB", "W/(m2 sr)", "the picture before exposure and tone curve, antialiased"},
     {"albedo", "RGB", "", "linear base colour of the first opaque surface"},
     {"normal", "XYZ", "", "world-space unit normal of the first opaque surface"},
-    {"depth", "Z", "m", "view-space distance along the camera's axis to the first opaque surface, 0 where there is none"},
+    {"depth", "Z", "m",
+     "view-space distance along the camera's axis to the first opaque surface, 0 where there is none"},
     {"motion", "XY", "px", "how far the surface moved since the frame before, x right, y down"},
     {"objectId", "X", "", "number of the instance, from 1; 0 where there is none"},
     {"direct", "RGB", "W/(m2 sr)", "radiance by the sun and lamps alone"},
@@ -50,7 +51,9 @@ std::vector<std::string> channelNames(const AovInfo& info) {
 
 Result<Image> readSource(const AovSources& s, const std::string& name) {
     const frame::GBuffer& g = s.targets.gbuffer();
-    const auto read = [&](const gl::TextureView& texture, int channels) { return frame::readImage(s.device, texture, channels); };
+    const auto read = [&](const gl::TextureView& texture, int channels) {
+        return frame::readImage(s.device, texture, channels);
+    };
     if (name == "radiance") return read(s.post.radiance(), 3);
     if (name == "depth") return read(g.viewDepth, 1);
     if (name == "objectId") return read(g.objectId, 1);
@@ -90,7 +93,8 @@ Result<std::vector<std::string>> parseAovList(std::string_view words) {
         at = end + 1;
         if (name.empty()) continue;
         if (name == "all") return known;
-        if (std::find(known.begin(), known.end(), name) == known.end()) return usageError("--aov: " + unknownWord("AOV", name, known));
+        if (std::find(known.begin(), known.end(), name) == known.end())
+            return usageError("--aov: " + unknownWord("AOV", name, known));
         if (std::find(wanted.begin(), wanted.end(), name) == wanted.end()) wanted.push_back(name);
     }
     return wanted;

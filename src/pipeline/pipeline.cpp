@@ -18,8 +18,8 @@ namespace shoal::pipeline {
 
 namespace {
 
-constexpr int kPreRoll = 8;          // samples of a temporal sequence's first frame: it has no history to rest on
-constexpr int kEndlessPattern = 0;   // samplePattern's count for temporal antialiasing
+constexpr int kPreRoll = 8;         // samples of a temporal sequence's first frame: it has no history to rest on
+constexpr int kEndlessPattern = 0;  // samplePattern's count for temporal antialiasing
 
 // What a scene is on a device.
 struct Loaded {
@@ -31,8 +31,8 @@ struct Loaded {
     frame::ShadowSetup shadowSetup;
     std::optional<frame::Geometry> geometry;
     std::optional<frame::Shadows> shadows;
-    std::vector<frame::InstanceId> instances;   // one a content instance
-    bool moves = false;                         // whether any instance walks
+    std::vector<frame::InstanceId> instances;  // one a content instance
+    bool moves = false;                        // whether any instance walks
 };
 
 // The tables of techniques that this version does not draw yet.
@@ -40,9 +40,11 @@ Result<void> refuseUnbuilt(const scene::Scene& scene) {
     for (const scene::RawTable& table : scene.tables) {
         const std::string root = table.name.substr(0, table.name.find('.'));
         if (root == "water" || root == "crowd" || root == "fluid" || root == "volume")
-            return badInput(table.place.describe() + ": [" + table.name + "]: this version of shoal has no " + root + " yet");
+            return badInput(table.place.describe() + ": [" + table.name + "]: this version of shoal has no " + root +
+                            " yet");
         if (root != table.name)
-            return badInput(table.place.describe() + ": [" + table.name + "]: unknown table, expected plain values in [" + root + "]");
+            return badInput(table.place.describe() + ": [" + table.name +
+                            "]: unknown table, expected plain values in [" + root + "]");
     }
     return {};
 }
@@ -144,19 +146,23 @@ Result<void> Pipeline::State::prepareTargets(int width, int height) {
 frame::Context Pipeline::State::makeContext(const FrameRequest& request) {
     const float aspect = float(request.width) / float(request.height);
     const auto viewAt = [&](float time) {
-        return light::makeView(scene::cameraAt(loaded->scene, loaded->content, time, aspect), request.width, request.height);
+        return light::makeView(scene::cameraAt(loaded->scene, loaded->content, time, aspect), request.width,
+                               request.height);
     };
     frame::Context context;
     context.device = &device;
     context.timer = &timer;
-    context.view = request.camera ? light::makeView(*request.camera, request.width, request.height) : viewAt(request.time);
+    context.view =
+        request.camera ? light::makeView(*request.camera, request.width, request.height) : viewAt(request.time);
     context.time = request.time;
     context.timeStep = request.frameIndex == 0 ? 0 : request.timeStep;
-    context.frameIndex = ++frameCount;   // request.frameIndex may be the same twice: two stills
+    context.frameIndex = ++frameCount;  // request.frameIndex may be the same twice: two stills
     context.previousView = context.view;
     if (request.frameIndex > 0) {
-        if (!request.camera) context.previousView = viewAt(request.time - request.timeStep);
-        else if (hasView && view.width == request.width && view.height == request.height) context.previousView = view;
+        if (!request.camera)
+            context.previousView = viewAt(request.time - request.timeStep);
+        else if (hasView && view.width == request.width && view.height == request.height)
+            context.previousView = view;
     }
     view = context.view;
     hasView = true;
@@ -172,8 +178,8 @@ void Pipeline::State::moveInstances(float time) {
 }
 
 void Pipeline::State::drawNeededViews(const frame::Context& context) {
-    loaded->shadows->prepare(context, loaded->shadowParams, loaded->content.sun ? &*loaded->content.sun : nullptr, loaded->content.lights,
-                             loaded->geometry->bounds());
+    loaded->shadows->prepare(context, loaded->shadowParams, loaded->content.sun ? &*loaded->content.sun : nullptr,
+                             loaded->content.lights, loaded->geometry->bounds());
     for (frame::NeededView& needed : loaded->shadows->neededViews()) {
         if (needed.unchanged && !loaded->geometry->changed(needed.view)) continue;
         loaded->geometry->drawDepth(context, needed);
@@ -214,7 +220,8 @@ Pipeline::~Pipeline() = default;
 Result<std::unique_ptr<Pipeline>> Pipeline::create(gl::Device& device) {
     SHOAL_TRY_ASSIGN(frame::Lighting lighting, frame::Lighting::create(device));
     SHOAL_TRY_ASSIGN(frame::Post post, frame::Post::create(device));
-    return std::unique_ptr<Pipeline>(new Pipeline(std::make_unique<State>(device, std::move(lighting), std::move(post))));
+    return std::unique_ptr<Pipeline>(
+        new Pipeline(std::make_unique<State>(device, std::move(lighting), std::move(post))));
 }
 
 Result<void> Pipeline::setScene(const scene::Scene& scene, scene::Content content) {
@@ -241,7 +248,9 @@ Result<void> Pipeline::setScene(const scene::Scene& scene, scene::Content conten
 Result<void> Pipeline::open(const std::filesystem::path& file, std::span<const scene::Override> overrides) {
     SHOAL_TRY_ASSIGN(const scene::Scene scene, scene::openScene(file, overrides));
     SHOAL_TRY_ASSIGN(scene::Content content,
-                     scene::loadContent(scene, [this](LogLevel level, std::string_view message) { state_->device.log(level, message); }));
+                     scene::loadContent(scene, [this](LogLevel level, std::string_view message) {
+                         state_->device.log(level, message);
+                     }));
     return setScene(scene, std::move(content));
 }
 
@@ -265,7 +274,9 @@ Result<void> Pipeline::render(const FrameRequest& request) {
     frame::Context context = s.makeContext(request);
     const bool temporal = request.antialiasing == "temporal";
     const bool first = request.frameIndex == 0;
-    const int sampleCount = temporal ? (first ? kPreRoll : 1) : request.antialiasing == "supersample" ? request.samples : 1;
+    const int sampleCount = temporal                                ? (first ? kPreRoll : 1)
+                            : request.antialiasing == "supersample" ? request.samples
+                                                                    : 1;
     s.moveInstances(request.time);
     s.loaded->geometry->update(context);
     s.drawNeededViews(context);
@@ -273,14 +284,19 @@ Result<void> Pipeline::render(const FrameRequest& request) {
     const frame::PostParams& look = s.loaded->postParams;
     s.post.setExpectedExposure(look.exposureMode == "fixed" ? std::exp2(look.exposureEv) : 0);
     if (!temporal) s.post.beginAccumulation(request.width, request.height);
-    const std::uint32_t firstSample = (request.seed - 1) * 4099;   // another place in the noise
+    const std::uint32_t firstSample = (request.seed - 1) * 4099;  // another place in the noise
     for (int i = 0; i < sampleCount; ++i) {
         context.sampleIndex = firstSample + std::uint32_t(i);
-        if (temporal) context.jitterPx = sampleOffset(i + (first ? 0 : int(request.frameIndex) + kPreRoll - 1), kEndlessPattern, request.seed);
-        else if (sampleCount > 1) context.jitterPx = sampleOffset(i, sampleCount, request.seed);
+        if (temporal)
+            context.jitterPx =
+                sampleOffset(i + (first ? 0 : int(request.frameIndex) + kPreRoll - 1), kEndlessPattern, request.seed);
+        else if (sampleCount > 1)
+            context.jitterPx = sampleOffset(i, sampleCount, request.seed);
         s.drawSample(context);
-        if (temporal) s.post.temporal(context, *s.targets, first && i == 0);
-        else s.post.accumulate(context, *s.targets);
+        if (temporal)
+            s.post.temporal(context, *s.targets, first && i == 0);
+        else
+            s.post.accumulate(context, *s.targets);
     }
     s.post.present(context, look, first);
     s.timer.endFrame();
@@ -310,7 +326,8 @@ Result<std::vector<Layer>> Pipeline::readAovs() {
     SHOAL_ASSERT_MSG(state_->targets, "render comes before readAovs");
     std::vector<Layer> layers;
     for (const std::string& name : state_->aovNames) {
-        SHOAL_TRY_ASSIGN(Layer layer, readAov({state_->device, *state_->targets, state_->lighting, state_->post}, name));
+        SHOAL_TRY_ASSIGN(Layer layer,
+                         readAov({state_->device, *state_->targets, state_->lighting, state_->post}, name));
         layers.push_back(std::move(layer));
     }
     return layers;
@@ -335,7 +352,9 @@ frame::Stats Pipeline::stats() const {
     stats.bytes = state_->device.liveBytes();
     if (state_->loaded) {
         const frame::GeometryStats& g = state_->loaded->geometry->stats();
-        stats.counts = {{"drawn triangles", g.drawnTriangles}, {"draws", g.draws}, {"instances", g.instances},
+        stats.counts = {{"drawn triangles", g.drawnTriangles},
+                        {"draws", g.draws},
+                        {"instances", g.instances},
                         {"skinned vertices", g.skinnedVertices}};
     }
     return stats;

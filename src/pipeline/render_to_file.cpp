@@ -33,9 +33,9 @@ Quat quatOf(const Mat4& m) {
 
 Result<void> checkOutput(const std::string& output, const OutputOptions& options) {
     const std::string extension = io::lowerExtension(output);
-    const bool known = io::isMovieFile(output) || extension == ".png" || extension == ".jpg" || extension == ".jpeg" || extension == ".exr";
-    if (!known)
-        return usageError("-o " + output + ": found \"" + extension + "\", expected .png, .jpg, .exr or .mp4");
+    const bool known = io::isMovieFile(output) || extension == ".png" || extension == ".jpg" || extension == ".jpeg" ||
+                       extension == ".exr";
+    if (!known) return usageError("-o " + output + ": found \"" + extension + "\", expected .png, .jpg, .exr or .mp4");
     if (!options.aovs.empty() && extension != ".exr")
         return usageError("--aov: " + output + " holds one picture, expected an .exr for AOV layers");
     if (options.transparent && extension != ".png" && extension != ".exr")
@@ -62,11 +62,12 @@ Result<void> writeFrame(Pipeline& pipeline, const std::string& path, const Outpu
 
 }  // namespace
 
-Result<std::vector<std::string>> renderToFile(Pipeline& pipeline, FrameRequest request, const std::string& output, const OutputOptions& options) {
+Result<std::vector<std::string>> renderToFile(Pipeline& pipeline, FrameRequest request, const std::string& output,
+                                              const OutputOptions& options) {
     SHOAL_TRY(checkOutput(output, options));
     if (!options.isStill && options.endFrame <= options.firstFrame)
-        return usageError("--frames: found " + std::to_string(options.firstFrame) + ":" + std::to_string(options.endFrame) +
-                          ", expected a first frame below the end");
+        return usageError("--frames: found " + std::to_string(options.firstFrame) + ":" +
+                          std::to_string(options.endFrame) + ", expected a first frame below the end");
     // Poses are written last: a place that takes none must be told before there are pictures.
     if (!options.posesFile.empty()) SHOAL_TRY(io::AtomicFile::open(options.posesFile));
     std::optional<io::Movie> movie;
@@ -95,7 +96,8 @@ Result<std::vector<std::string>> renderToFile(Pipeline& pipeline, FrameRequest r
             written.push_back(path);
         }
         const Mat4 worldFromView = pipeline.view().worldFromView;
-        poses.push_back({request.time, {worldFromView(0, 3), worldFromView(1, 3), worldFromView(2, 3)}, quatOf(worldFromView)});
+        poses.push_back(
+            {request.time, {worldFromView(0, 3), worldFromView(1, 3), worldFromView(2, 3)}, quatOf(worldFromView)});
         if (options.progress && !options.progress(std::uint64_t(i - first + 1), std::uint64_t(end - first)))
             return Error{ErrorKind::cancelled, "stopped after frame " + std::to_string(i)};
     }

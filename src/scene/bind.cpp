@@ -8,7 +8,8 @@ namespace shoal::scene {
 std::string Place::describe() const { return line > 0 ? file + ":" + std::to_string(line) : "--set"; }
 
 Error errorAt(const Place& place, const std::string& path, const std::string& message) {
-    // setField's messages begin with the field's name: "fovDeg: found ..."; a path in front makes it "camera.fovDeg: found ...".
+    // setField's messages begin with the field's name: "fovDeg: found ..."; a path in front makes it "camera.fovDeg:
+    // found ...".
     const bool unknown = message.rfind("unknown ", 0) == 0;
     const bool field = !unknown && message.rfind("found ", 0) != 0 && message.rfind("expected ", 0) != 0;
     const std::string prefix = path.empty() ? "" : path + (field ? "." : ": ");
@@ -32,10 +33,12 @@ Result<std::string> textOf(const Tree& tree, const std::string& path) {
 }
 
 Result<Vec3> vec3Of(const Tree& tree, const std::string& path) {
-    if (tree.kind == Tree::Kind::value && tree.value.kind == FieldValue::Kind::numbers && tree.value.numbers.size() == 3 &&
+    if (tree.kind == Tree::Kind::value && tree.value.kind == FieldValue::Kind::numbers &&
+        tree.value.numbers.size() == 3 &&
         std::all_of(tree.value.numbers.begin(), tree.value.numbers.end(), [](double x) { return std::abs(x) <= 1e6; }))
         return Vec3{float(tree.value.numbers[0]), float(tree.value.numbers[1]), float(tree.value.numbers[2])};
-    return errorAt(tree.place, path, std::string("found ") + describeKind(tree) + ", expected three numbers within 1e6");
+    return errorAt(tree.place, path,
+                   std::string("found ") + describeKind(tree) + ", expected three numbers within 1e6");
 }
 
 Result<void> refuseUnknown(const Tree& table, const std::string& path, const std::vector<std::string>& known) {

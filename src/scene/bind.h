@@ -1,4 +1,5 @@
-// From trees to structs: every key of a table goes to a described field or to one of the names its caller takes care of.
+// From trees to structs: every key of a table goes to a described field or to one of the names its caller takes care
+// of.
 #pragma once
 
 #include <span>
@@ -17,8 +18,9 @@ Result<void> requireArray(const Tree& tree, const std::string& path);
 Result<std::string> textOf(const Tree& tree, const std::string& path);
 Result<Vec3> vec3Of(const Tree& tree, const std::string& path);
 
-// Sets the fields of `params` from a table's members; names in `elsewhere` are left to the caller. `known` collects every name there
-// is, for the error of an unknown one: bind several structs from one table with bindFields, then close with refuseUnknown.
+// Sets the fields of `params` from a table's members; names in `elsewhere` are left to the caller. `known` collects
+// every name there is, for the error of an unknown one: bind several structs from one table with bindFields, then close
+// with refuseUnknown.
 template <class Params>
 Result<void> bindFields(const Tree& table, const std::string& path, Params& params, std::vector<std::string>& known) {
     std::vector<std::string> own;
@@ -41,7 +43,8 @@ Result<void> refuseUnknown(const Tree& table, const std::string& path, const std
 
 // bindFields and refuseUnknown for a table of one struct.
 template <class Params>
-Result<void> bindAll(const Tree& table, const std::string& path, Params& params, std::vector<std::string> elsewhere = {}) {
+Result<void> bindAll(const Tree& table, const std::string& path, Params& params,
+                     std::vector<std::string> elsewhere = {}) {
     SHOAL_TRY(requireTable(table, path));
     SHOAL_TRY(bindFields(table, path, params, elsewhere));
     return refuseUnknown(table, path, elsewhere);

@@ -138,7 +138,8 @@ void takeSun(const Scene& scene, const light::Sun& sun, Content& content) {
     if (scene.sunOff || scene.sunGiven) return;
     content.sun = sun;
     if (scene.environment.kind == "clearSky")
-        content.environment = light::makeClearSky(sun.toSun, scene.environment.turbidity, scene.environment.groundAlbedo).environment;
+        content.environment =
+            light::makeClearSky(sun.toSun, scene.environment.turbidity, scene.environment.groundAlbedo).environment;
 }
 
 // A light, camera or emitter that a model file brings along, in world space.

@@ -74,7 +74,8 @@ Result<void> parseCamera(const Tree& tree, Scene& scene) {
         SHOAL_TRY_ASSIGN(scene.cameraOfModel, textOf(*model, "camera.model"));
     }
     if (kinds.size() > 1)
-        return errorAt(tree.place, "camera", "found both " + kinds[0] + " and " + kinds[1] + ", expected one of orbit, path, poses, model");
+        return errorAt(tree.place, "camera",
+                       "found both " + kinds[0] + " and " + kinds[1] + ", expected one of orbit, path, poses, model");
     if (const Tree* intrinsics = tree.find("intrinsics")) {
         scene.intrinsics.emplace();
         SHOAL_TRY(bindAll(*intrinsics, "camera.intrinsics", *scene.intrinsics));
@@ -89,7 +90,8 @@ Result<void> parseCamera(const Tree& tree, Scene& scene) {
 // `scale = 2` is short for `scale = [2, 2, 2]`.
 Tree withFullScale(const Tree& tree) {
     Tree full = tree;
-    if (Tree* scale = full.find("scale"); scale && scale->kind == Tree::Kind::value && scale->value.kind == FieldValue::Kind::number) {
+    if (Tree* scale = full.find("scale");
+        scale && scale->kind == Tree::Kind::value && scale->value.kind == FieldValue::Kind::number) {
         scale->value.kind = FieldValue::Kind::numbers;
         scale->value.numbers.assign(3, scale->value.numbers[0]);
     }
@@ -108,25 +110,30 @@ Result<WalkSpec> parseWalk(const Tree& tree, const std::string& path) {
     WalkSpec walk;
     if (const Tree* points = tree.find("points")) {
         if (points->kind != Tree::Kind::array)
-            return errorAt(points->place, path + ".points", std::string("found ") + describeKind(*points) + ", expected an array of points");
+            return errorAt(points->place, path + ".points",
+                           std::string("found ") + describeKind(*points) + ", expected an array of points");
         for (std::size_t i = 0; i < points->elements.size(); ++i) {
-            SHOAL_TRY_ASSIGN(const Vec3 point, vec3Of(points->elements[i], path + ".points[" + std::to_string(i) + "]"));
+            SHOAL_TRY_ASSIGN(const Vec3 point,
+                             vec3Of(points->elements[i], path + ".points[" + std::to_string(i) + "]"));
             if (!walk.points.empty() && length(point - walk.points.back()) < 1e-4f)
-                return errorAt(points->place, path + ".points[" + std::to_string(i) + "]", "found the point before again, expected another");
+                return errorAt(points->place, path + ".points[" + std::to_string(i) + "]",
+                               "found the point before again, expected another");
             walk.points.push_back(point);
         }
     }
     if (walk.points.size() < 2)
-        return errorAt(tree.place, path + ".points", "found " + std::to_string(walk.points.size()) + " points, expected at least 2");
+        return errorAt(tree.place, path + ".points",
+                       "found " + std::to_string(walk.points.size()) + " points, expected at least 2");
     if (const Tree* speed = tree.find("speed")) {
-        if (speed->kind != Tree::Kind::value || speed->value.kind != FieldValue::Kind::number || !(speed->value.numbers[0] >= 0) ||
-            speed->value.numbers[0] > 1000)
+        if (speed->kind != Tree::Kind::value || speed->value.kind != FieldValue::Kind::number ||
+            !(speed->value.numbers[0] >= 0) || speed->value.numbers[0] > 1000)
             return errorAt(speed->place, path + ".speed", "expected 0 .. 1000 m/s");
         walk.speed = float(speed->value.numbers[0]);
     }
     if (const Tree* loop = tree.find("loop")) {
         if (loop->kind != Tree::Kind::value || loop->value.kind != FieldValue::Kind::boolean)
-            return errorAt(loop->place, path + ".loop", std::string("found ") + describeKind(*loop) + ", expected true or false");
+            return errorAt(loop->place, path + ".loop",
+                           std::string("found ") + describeKind(*loop) + ", expected true or false");
         walk.loop = loop->value.boolean;
     }
     return walk;
@@ -141,7 +148,8 @@ Result<ModelEntry> parseModel(const Tree& written, const std::string& path) {
     SHOAL_TRY(bindFields(tree, path, entry.model, known));
     SHOAL_TRY(bindFields(tree, path, entry.placement, known));
     SHOAL_TRY(refuseUnknown(tree, path, known));
-    if (entry.model.file.empty()) return errorAt(tree.place, path, "file: found none, expected the name of a model file");
+    if (entry.model.file.empty())
+        return errorAt(tree.place, path, "file: found none, expected the name of a model file");
     SHOAL_TRY(checkScale(tree, path, entry.placement.scale));
     if (const Tree* copies = tree.find("copies")) {
         SHOAL_TRY(bindAll(*copies, path + ".copies", entry.copies));
@@ -154,7 +162,8 @@ Result<ModelEntry> parseModel(const Tree& written, const std::string& path) {
     if (const Tree* hide = tree.find("hide")) {
         if (hide->kind != Tree::Kind::array && !(hide->kind == Tree::Kind::value && hide->value.numbers.empty() &&
                                                  hide->value.kind == FieldValue::Kind::numbers))
-            return errorAt(hide->place, path + ".hide", std::string("found ") + describeKind(*hide) + ", expected an array of node names");
+            return errorAt(hide->place, path + ".hide",
+                           std::string("found ") + describeKind(*hide) + ", expected an array of node names");
         for (const Tree& name : hide->elements) {
             SHOAL_TRY_ASSIGN(std::string text, textOf(name, path + ".hide"));
             entry.hide.push_back(std::move(text));
@@ -177,7 +186,8 @@ Result<ShapeEntry> parseShape(const Tree& written, const std::string& path) {
     for (const auto& [name, member] : tree.members) {
         if (std::find(placementKeys.begin(), placementKeys.end(), name) != placementKeys.end()) continue;
         if (member.kind != Tree::Kind::value)
-            return errorAt(member.place, path + "." + name, std::string("found ") + describeKind(member) + ", expected a value");
+            return errorAt(member.place, path + "." + name,
+                           std::string("found ") + describeKind(member) + ", expected a value");
         entry.settings.push_back({name, member.value, member.place});
     }
     const std::vector<std::string>& kinds = shapeNames();
@@ -188,13 +198,14 @@ Result<ShapeEntry> parseShape(const Tree& written, const std::string& path) {
 
 Result<void> parseEnvironment(const Tree& tree, Scene& scene) {
     scene.environmentPlace = tree.place;
-    if (tree.kind == Tree::Kind::value) {   // environment = "none" | "clearSky" | "file.hdr"
+    if (tree.kind == Tree::Kind::value) {  // environment = "none" | "clearSky" | "file.hdr"
         SHOAL_TRY_ASSIGN(const std::string text, textOf(tree, "environment"));
         const bool isFile = text.find('.') != std::string::npos;
         FieldValue value;
         value.kind = FieldValue::Kind::text;
         value.text = text;
-        if (isFile) scene.environment.kind = "file", scene.environment.file = text;
+        if (isFile)
+            scene.environment.kind = "file", scene.environment.file = text;
         else if (auto set = setField(scene.environment, "kind", value); !set)
             return errorAt(tree.place, "environment", set.error().message);
     } else {
@@ -220,7 +231,8 @@ Result<void> parseSun(const Tree& tree, Scene& scene) {
     SHOAL_TRY(refuseUnknown(tree, "sun", known));
     const Tree* elevation = tree.find("elevationDeg");
     const Tree* azimuth = tree.find("azimuthDeg");
-    const auto angle = [](const Tree* angleTree, const char* name, double lowest, double highest, double& to) -> Result<void> {
+    const auto angle = [](const Tree* angleTree, const char* name, double lowest, double highest,
+                          double& to) -> Result<void> {
         if (!angleTree) return {};
         if (angleTree->kind != Tree::Kind::value || angleTree->value.kind != FieldValue::Kind::number ||
             !(angleTree->value.numbers[0] >= lowest && angleTree->value.numbers[0] <= highest))
@@ -238,7 +250,8 @@ Result<void> parseSun(const Tree& tree, Scene& scene) {
         const float e = radians(float(elevationDeg)), a = radians(float(azimuthDeg));
         scene.sun.toSun = {std::cos(e) * std::sin(a), std::sin(e), std::cos(e) * std::cos(a)};
     }
-    if (length(scene.sun.toSun) < 1e-12f) return errorAt(tree.place, "sun", "toSun: found no direction, expected one of any length above 0");
+    if (length(scene.sun.toSun) < 1e-12f)
+        return errorAt(tree.place, "sun", "toSun: found no direction, expected one of any length above 0");
     scene.sun.toSun = normalize(scene.sun.toSun);
     return {};
 }
@@ -250,9 +263,11 @@ Result<void> parseLights(const Tree& tree, Scene& scene) {
         LightSpec light;
         SHOAL_TRY(bindAll(tree.elements[i], path, light));
         if (light.kind == "spot" && length(light.target - light.position) == 0)
-            return errorAt(tree.elements[i].place, path, "target: found the spot's own position, expected another point");
+            return errorAt(tree.elements[i].place, path,
+                           "target: found the spot's own position, expected another point");
         if (light.innerDeg > light.outerDeg)
-            return errorAt(tree.elements[i].place, path, "innerDeg: found more than outerDeg, expected at most outerDeg");
+            return errorAt(tree.elements[i].place, path,
+                           "innerDeg: found more than outerDeg, expected at most outerDeg");
         scene.lights.push_back(light);
     }
     return {};
@@ -308,7 +323,8 @@ Result<Scene> sceneOfTree(const Tree& root, const std::filesystem::path& file) {
 
 }  // namespace
 
-Result<Scene> parseScene(std::string_view text, const std::filesystem::path& file, std::span<const Override> overrides) {
+Result<Scene> parseScene(std::string_view text, const std::filesystem::path& file,
+                         std::span<const Override> overrides) {
     SHOAL_TRY_ASSIGN(Tree root, parseTree(text, file));
     for (const Override& change : overrides) SHOAL_TRY(applyOverride(root, change));
     return sceneOfTree(root, file);
@@ -325,7 +341,7 @@ Result<Scene> sceneForModel(const std::filesystem::path& modelFile, std::span<co
     name.value.kind = FieldValue::Kind::text;
     name.value.text = std::filesystem::absolute(modelFile).string();
     model.members.push_back({"file", name});
-    name.value.text = "*";   // the first clip there is
+    name.value.text = "*";  // the first clip there is
     model.members.push_back({"clip", name});
     Tree models;
     models.kind = Tree::Kind::array;
@@ -339,12 +355,14 @@ Result<Scene> sceneForModel(const std::filesystem::path& modelFile, std::span<co
 
 Result<Scene> openScene(const std::filesystem::path& file, std::span<const Override> overrides) {
     std::string extension = file.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return char(std::tolower(c)); });
     if (extension == ".toml") return loadScene(file, overrides);
     if (io::isModelFile(file)) return sceneForModel(file, overrides);
     // A missing file is the better answer than its strange name.
     SHOAL_TRY(io::readFile(file));
-    return badInput(file.string() + ": found a file called \"" + extension + "\", expected a scene (.toml) or a model "
+    return badInput(file.string() + ": found a file called \"" + extension +
+                    "\", expected a scene (.toml) or a model "
                     "(.glb, .gltf, .obj, .ply, .stl, .fbx, .dae, ...)");
 }
 

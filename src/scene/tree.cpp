@@ -29,10 +29,14 @@ const char* describeKind(const Tree& tree) {
     if (tree.kind == Tree::Kind::table) return "a table";
     if (tree.kind == Tree::Kind::array) return "an array";
     switch (tree.value.kind) {
-    case FieldValue::Kind::boolean: return "true or false";
-    case FieldValue::Kind::number: return "a number";
-    case FieldValue::Kind::numbers: return "an array of numbers";
-    case FieldValue::Kind::text: return "a text";
+        case FieldValue::Kind::boolean:
+            return "true or false";
+        case FieldValue::Kind::number:
+            return "a number";
+        case FieldValue::Kind::numbers:
+            return "an array of numbers";
+        case FieldValue::Kind::text:
+            return "a text";
     }
     return "a value";
 }
@@ -153,14 +157,15 @@ Tree treeOfWords(const std::string& words) {
 
 Result<Tree> parseTree(std::string_view text, const std::filesystem::path& file) {
     if (text.size() > kSceneTextLimit)
-        return badInput(file.string() + ": " + std::to_string(text.size()) + " bytes, expected a scene file of at most " +
-                        std::to_string(kSceneTextLimit));
+        return badInput(file.string() + ": " + std::to_string(text.size()) +
+                        " bytes, expected a scene file of at most " + std::to_string(kSceneTextLimit));
     const toml::parse_result parsed = toml::parse(text, file.string());
     if (!parsed) {
         const toml::parse_error& error = parsed.error();
         std::string description(error.description());
         std::replace(description.begin(), description.end(), '\n', ' ');
-        return badInput(file.string() + ":" + std::to_string(error.source().begin.line) + ": not valid TOML: " + description);
+        return badInput(file.string() + ":" + std::to_string(error.source().begin.line) +
+                        ": not valid TOML: " + description);
     }
     return convert(parsed.table(), file.string());
 }
@@ -170,7 +175,8 @@ Result<void> applyOverride(Tree& root, const Override& change) {
     Tree* at = &root;
     for (const Step& step : steps) {
         if (at->kind != Tree::Kind::table)
-            return usageError("--set " + change.key + ": " + step.name + " is asked of " + describeKind(*at) + ", expected a table");
+            return usageError("--set " + change.key + ": " + step.name + " is asked of " + describeKind(*at) +
+                              ", expected a table");
         Tree* member = at->find(step.name);
         if (!member) {
             at->members.push_back({step.name, Tree{}});
@@ -178,8 +184,8 @@ Result<void> applyOverride(Tree& root, const Override& change) {
         }
         for (const std::size_t index : step.indices) {
             if (member->kind != Tree::Kind::array || index >= member->elements.size())
-                return usageError("--set " + change.key + ": no element " + std::to_string(index) + ", " + step.name + " has " +
-                                  std::to_string(member->elements.size()));
+                return usageError("--set " + change.key + ": no element " + std::to_string(index) + ", " + step.name +
+                                  " has " + std::to_string(member->elements.size()));
             member = &member->elements[index];
         }
         at = member;

@@ -1,4 +1,5 @@
-// A parsed scene file as plain data: values, tables and arrays with the lines they stand on. Only tree.cpp sees the TOML library.
+// A parsed scene file as plain data: values, tables and arrays with the lines they stand on. Only tree.cpp sees the
+// TOML library.
 #pragma once
 
 #include <filesystem>
@@ -15,9 +16,9 @@ struct TreeMember;
 
 struct Tree {
     enum class Kind { value, table, array } kind = Kind::table;
-    FieldValue value;                                    // Kind::value; arrays of numbers are values too
-    std::vector<TreeMember> members;     // Kind::table, in file order
-    std::vector<Tree> elements;                          // Kind::array
+    FieldValue value;                 // Kind::value; arrays of numbers are values too
+    std::vector<TreeMember> members;  // Kind::table, in file order
+    std::vector<Tree> elements;       // Kind::array
     Place place;
 
     Tree* find(std::string_view key);

@@ -29,7 +29,8 @@ int property(GLuint program, GLenum interface, GLuint index, GLenum name) {
 }
 
 // Compares a uniform block's size and the offsets of its members; `prefix` is what GL puts before a member's name.
-void expectUniformBlock(GLuint program, const char* block, const std::string& prefix, std::size_t size, std::initializer_list<Member> members) {
+void expectUniformBlock(GLuint program, const char* block, const std::string& prefix, std::size_t size,
+                        std::initializer_list<Member> members) {
     const GLuint index = glGetProgramResourceIndex(program, GL_UNIFORM_BLOCK, block);
     ASSERT_NE(index, GL_INVALID_INDEX) << block;
     EXPECT_EQ(property(program, GL_UNIFORM_BLOCK, index, GL_BUFFER_DATA_SIZE), int(size)) << block;
@@ -41,7 +42,8 @@ void expectUniformBlock(GLuint program, const char* block, const std::string& pr
 }
 
 // The same for the elements of a storage block's array, found by the end of their names: "[0].tint".
-void expectStorageArray(GLuint program, const std::string& arrayElement, std::size_t stride, std::initializer_list<Member> members) {
+void expectStorageArray(GLuint program, const std::string& arrayElement, std::size_t stride,
+                        std::initializer_list<Member> members) {
     GLint count = 0;
     glGetProgramInterfaceiv(program, GL_BUFFER_VARIABLE, GL_ACTIVE_RESOURCES, &count);
     std::map<std::string, GLuint> found;

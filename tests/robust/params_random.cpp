@@ -1,5 +1,5 @@
-// Random words for every field of every parameter struct: each is taken in range or refused with one line, never both, and no struct is
-// left with a value that validate() would not have.
+// Random words for every field of every parameter struct: each is taken in range or refused with one line, never both,
+// and no struct is left with a value that validate() would not have.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,9 +14,11 @@ namespace shoal {
 namespace {
 
 std::string randomWords(std::uint32_t seed) {
-    static const char* const kWords[] = {"0", "-1", "1e30", "1e39", "-1e308", "nan", "inf", "-inf", "true", "false", "[1, 2]", "[1, 2, 3]", "[1, 2, 3, 4]",
-                                         "[nan, 0, 0]", "[]", "[[1]]", "\"agx\"", "agx", "", " ", "0.5", "3.0000001", "4294967296", "-0", "1e-45", "\"", "0x10",
-                                         "automatic", "temporal", "point", "\xff"};
+    static const char* const kWords[] = {
+        "0",       "-1",    "1e30",   "1e39",      "-1e308",       "nan",         "inf",        "-inf",
+        "true",    "false", "[1, 2]", "[1, 2, 3]", "[1, 2, 3, 4]", "[nan, 0, 0]", "[]",         "[[1]]",
+        "\"agx\"", "agx",   "",       " ",         "0.5",          "3.0000001",   "4294967296", "-0",
+        "1e-45",   "\"",    "0x10",   "automatic", "temporal",     "point",       "\xff"};
     if (randomBits(seed, 0) % 3 == 0) {
         const double magnitude = std::pow(10.0, double(randomBits(seed, 1) % 80) - 40);
         return std::to_string((randomFloat(seed, 2) - 0.5) * magnitude);

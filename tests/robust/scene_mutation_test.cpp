@@ -54,17 +54,29 @@ std::string mutated(std::uint32_t seed) {
         const auto random = [&](std::uint32_t which) { return randomBits(seed, std::uint32_t(i) + 1, which); };
         if (text.empty()) text = "x";
         const std::size_t at = random(0) % text.size();
-        static const char* const kTokens[] = {"nan", "-inf", "1e999", "[[", "]]", "{", "}", "\"", "\n", "=", "-1", "99999999999999999999", "\xff\xfe", "'''", "[camera]\n", "0x", "."};
+        static const char* const kTokens[] = {"nan",      "-inf", "1e999",      "[[", "]]", "{",
+                                              "}",        "\"",   "\n",         "=",  "-1", "99999999999999999999",
+                                              "\xff\xfe", "'''",  "[camera]\n", "0x", "."};
         switch (random(1) % 6) {
-        case 0: text[at] = char(random(2) & 0xff); break;
-        case 1: text.erase(at, 1 + random(2) % 20); break;
-        case 2: text.insert(at, kTokens[random(2) % std::size(kTokens)]); break;
-        case 3: text.insert(at, text.substr(random(2) % text.size(), random(3) % 60)); break;
-        case 4: text.resize(at); break;
-        default: {
-            const std::size_t digit = text.find_first_of("0123456789", at);
-            if (digit != std::string::npos) text[digit] = char('0' + random(2) % 10);
-        }
+            case 0:
+                text[at] = char(random(2) & 0xff);
+                break;
+            case 1:
+                text.erase(at, 1 + random(2) % 20);
+                break;
+            case 2:
+                text.insert(at, kTokens[random(2) % std::size(kTokens)]);
+                break;
+            case 3:
+                text.insert(at, text.substr(random(2) % text.size(), random(3) % 60));
+                break;
+            case 4:
+                text.resize(at);
+                break;
+            default: {
+                const std::size_t digit = text.find_first_of("0123456789", at);
+                if (digit != std::string::npos) text[digit] = char('0' + random(2) % 10);
+            }
         }
     }
     return text;

@@ -1,5 +1,5 @@
-// Bad input to `shoal render`: one clear line, the exit code of docs/conventions.md, no partial output, and an old output
-// untouched.
+// Bad input to `shoal render`: one clear line, the exit code of docs/conventions.md, no partial output, and an old
+// output untouched.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -12,7 +12,7 @@ namespace shoal::frame {
 class Targets {
 public:
     static Result<Targets> create(gl::Device& device, int width, int height);
-    Result<void> resize(int width, int height);   // allocates; no-op for the same size
+    Result<void> resize(int width, int height);  // allocates; no-op for the same size
 
     const GBuffer& gbuffer() const { return gbuffer_; }
     // RGBA16F: linear radiance, a = coverage (1 where a surface or an opaque background is).

@@ -31,7 +31,7 @@ Result<void> writeFileAtomically(const std::filesystem::path& path, std::string_
 // For writers that need a path: they write to temporaryPath(), then commit() renames it to the path it stands for.
 // Dropped without commit, the temporary file is removed and the old file stays.
 class AtomicFile {
- public:
+public:
     // Makes an empty file with a unique name beside `path`, with the same extension; errors as writeFileAtomically.
     static Result<AtomicFile> open(const std::filesystem::path& path);
 
@@ -43,7 +43,7 @@ class AtomicFile {
     const std::filesystem::path& temporaryPath() const { return temporary_; }
     Result<void> commit();
 
- private:
+private:
     AtomicFile(std::filesystem::path path, std::filesystem::path temporary);
     void discard() noexcept;
     std::filesystem::path path_, temporary_;  // temporary_ is empty after commit

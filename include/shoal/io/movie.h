@@ -22,7 +22,7 @@ struct MovieOptions {
 
 // The same frames and options give the same bytes. yuv420p, BT.709, limited range, fast start. One thread at a time.
 class Movie {
- public:
+public:
     // Sizes are in pixels and even (yuv420p halves the colour planes); fps in (0, 1000]. Errors: odd or zero size,
     // ffmpeg not found, a path that does not end in .mp4, .m4v or .mov, an unwritable folder.
     static Result<Movie> open(const std::filesystem::path& path, int width, int height, double fps,
@@ -37,7 +37,7 @@ class Movie {
     // Waits for ffmpeg and puts the movie in its place. An error when there was no frame.
     Result<void> finish();
 
- private:
+private:
     struct State;
     explicit Movie(std::unique_ptr<State> state);
     std::unique_ptr<State> state_;

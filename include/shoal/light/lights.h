@@ -17,13 +17,13 @@ struct Sun {
 
 struct PunctualLight {
     enum class Kind { point, spot } kind = Kind::point;
-    Vec3 position;                      // world
-    Vec3 direction{0, -1, 0};           // where a spot shines, unit
-    Vec3 intensity{1, 1, 1};            // W/sr per channel; irradiance at distance d is intensity / d2
-    float range = 0;                    // metres, 0: infinite; smooth window [KHR_lights_punctual]
-    float innerCone = 0, outerCone = 0.785398f;   // half angles, radians
-    float radius = 0.05f;               // metres: distance below which the light stops getting brighter, softness of the shadow
-    bool castsShadow = false;           // spots only
+    Vec3 position;                               // world
+    Vec3 direction{0, -1, 0};                    // where a spot shines, unit
+    Vec3 intensity{1, 1, 1};                     // W/sr per channel; irradiance at distance d is intensity / d2
+    float range = 0;                             // metres, 0: infinite; smooth window [KHR_lights_punctual]
+    float innerCone = 0, outerCone = 0.785398f;  // half angles, radians
+    float radius = 0.05f;      // metres: distance below which the light stops getting brighter, softness of the shadow
+    bool castsShadow = false;  // spots only
 };
 
 // Irradiance (W/m2) that `light` puts on a plane at `point` facing it, without shadow.

@@ -17,12 +17,12 @@ namespace shoal::scene {
 // One thing that stands somewhere.
 struct Instance {
     std::string name;
-    int model = -1;               // index into Content::models
+    int model = -1;  // index into Content::models
     int clip = -1;
     float speed = 1, startTime = 0;
     bool loop = true, castsShadow = true, visible = true;
     Vec3 tint{1, 1, 1};
-    Mat4 worldFromModel;          // without a walk
+    Mat4 worldFromModel;  // without a walk
     std::optional<WalkSpec> walk;
     std::vector<std::string> hide;
 };
@@ -37,14 +37,14 @@ struct CameraPoseKey {
 struct Content {
     std::vector<Model> models;
     std::vector<Instance> instances;
-    std::optional<light::Environment> environment;   // nothing: black
+    std::optional<light::Environment> environment;  // nothing: black
     std::optional<light::Sun> sun;
-    bool sunInBackground = false;                    // the sky was made without the disc: draw it
-    std::vector<light::PunctualLight> lights;        // the scene's and the models' own
-    std::vector<CameraPoseKey> poses;                // of CameraKind::poses
-    Bounds bounds;                                   // of all visible instances at time 0, world
-    std::vector<Bounds> focusBoxes;                  // one a mesh that is worth looking at
-    Bounds focus;                                    // the same without wide, empty things: ground, sea, sky dome
+    bool sunInBackground = false;              // the sky was made without the disc: draw it
+    std::vector<light::PunctualLight> lights;  // the scene's and the models' own
+    std::vector<CameraPoseKey> poses;          // of CameraKind::poses
+    Bounds bounds;                             // of all visible instances at time 0, world
+    std::vector<Bounds> focusBoxes;            // one a mesh that is worth looking at
+    Bounds focus;                              // the same without wide, empty things: ground, sea, sky dome
 };
 
 // Reads and makes everything, in parallel. Errors name the scene's line and the file.

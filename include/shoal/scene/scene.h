@@ -1,5 +1,5 @@
-// The scene file: what there is to draw, as written by a person. TOML in, checked structs out; a technique's own table stays raw (key,
-// value, line) and is bound by the pipeline.
+// The scene file: what there is to draw, as written by a person. TOML in, checked structs out; a technique's own table
+// stays raw (key, value, line) and is bound by the pipeline.
 #pragma once
 
 #include <filesystem>
@@ -19,12 +19,12 @@ namespace shoal::scene {
 // Where in the file something stands; errors begin with it: "street.toml:12: camera.fovDeg: ...".
 struct Place {
     std::string file;
-    int line = 0;               // 0: not from a file (a --set override, a default)
-    std::string describe() const;   // "street.toml:12" or "--set"
+    int line = 0;                  // 0: not from a file (a --set override, a default)
+    std::string describe() const;  // "street.toml:12" or "--set"
 };
 
-// A table of a technique, not interpreted here. Nested tables are RawTables with dotted names ("water.caustics"); an array of tables
-// gives one RawTable an element ("water.waves.components[0]").
+// A table of a technique, not interpreted here. Nested tables are RawTables with dotted names ("water.caustics"); an
+// array of tables gives one RawTable an element ("water.waves.components[0]").
 struct RawEntry {
     std::string key;
     FieldValue value;
@@ -43,7 +43,7 @@ struct CameraSpec {
     float heightM = 10;
 };
 template <class P, class V>
-    requires std::is_same_v<std::remove_const_t<P>, CameraSpec>
+requires std::is_same_v<std::remove_const_t<P>, CameraSpec>
 void visit(P& p, V&& v) {
     v(p.position, Field{"position", "m", -1e6, 1e6, "where the eye is"});
     v(p.target, Field{"target", "m", -1e6, 1e6, "the point in the middle of the picture"});
@@ -61,7 +61,7 @@ struct OrbitSpec {
     float radius = 10, elevationDeg = 15, startDeg = 0, degPerSecond = 20;
 };
 template <class P, class V>
-    requires std::is_same_v<std::remove_const_t<P>, OrbitSpec>
+requires std::is_same_v<std::remove_const_t<P>, OrbitSpec>
 void visit(P& p, V&& v) {
     v(p.center, Field{"center", "m", -1e6, 1e6, "what the camera circles and looks at"});
     v(p.radius, Field{"radius", "m", 1e-3, 1e6, "distance from the centre"});
@@ -77,7 +77,7 @@ struct CameraKey {
     float fovDeg = 50;
 };
 template <class P, class V>
-    requires std::is_same_v<std::remove_const_t<P>, CameraKey>
+requires std::is_same_v<std::remove_const_t<P>, CameraKey>
 void visit(P& p, V&& v) {
     v(p.time, Field{"time", "s", -1e6, 1e6, "when"});
     v(p.position, Field{"position", "m", -1e6, 1e6, "where the eye is then"});
@@ -89,7 +89,7 @@ struct IntrinsicsSpec {
     float fx = 0, fy = 0, cx = 0, cy = 0, width = 0, height = 0;
 };
 template <class P, class V>
-    requires std::is_same_v<std::remove_const_t<P>, IntrinsicsSpec>
+requires std::is_same_v<std::remove_const_t<P>, IntrinsicsSpec>
 void visit(P& p, V&& v) {
     v(p.fx, Field{"fx", "px", 1e-3, 1e6, "focal length across"});
     v(p.fy, Field{"fy", "px", 1e-3, 1e6, "focal length down"});
@@ -101,15 +101,16 @@ void visit(P& p, V&& v) {
 
 struct SunSpec {
     Vec3 toSun{-0.55f, 0.72f, 0.6f};
-    Vec3 irradiance{-1, -1, -1};      // below 0: what the clear sky leaves of the sun, else 9.2
+    Vec3 irradiance{-1, -1, -1};  // below 0: what the clear sky leaves of the sun, else 9.2
     float discDeg = 0.2667f;
     bool castsShadow = true;
 };
 template <class P, class V>
-    requires std::is_same_v<std::remove_const_t<P>, SunSpec>
+requires std::is_same_v<std::remove_const_t<P>, SunSpec>
 void visit(P& p, V&& v) {
     v(p.toSun, Field{"toSun", "", -1e6, 1e6, "direction towards the sun (any length)"});
-    v(p.irradiance, Field{"irradiance", "W/m2", -1, 1e6, "on a plane facing the sun, per channel; -1 takes it from the sky"});
+    v(p.irradiance,
+      Field{"irradiance", "W/m2", -1, 1e6, "on a plane facing the sun, per channel; -1 takes it from the sky"});
     v(p.discDeg, Field{"discDeg", "deg", 0, 45, "half angle of the sun's disc, 0 a point"});
     v(p.castsShadow, Field{"castsShadow", "", -1e30, 1e30, "whether things shade each other from it"});
 }
@@ -122,7 +123,7 @@ struct LightSpec {
     bool castsShadow = true;
 };
 template <class P, class V>
-    requires std::is_same_v<std::remove_const_t<P>, LightSpec>
+requires std::is_same_v<std::remove_const_t<P>, LightSpec>
 void visit(P& p, V&& v) {
     v(p.kind, Field{"kind", "", -1e30, 1e30, "what it is", {"point", "spot"}});
     v(p.position, Field{"position", "m", -1e6, 1e6, "where it is"});
@@ -136,15 +137,16 @@ void visit(P& p, V&& v) {
 }
 
 struct EnvironmentSpec {
-    std::string kind = "clearSky";     // "clearSky", "file", "color", "none"
+    std::string kind = "clearSky";  // "clearSky", "file", "color", "none"
     std::string file;
     float rotationDeg = 0, intensity = 1, turbidity = 2.2f;
     Vec3 groundAlbedo{0.25f, 0.24f, 0.22f}, color{1, 1, 1};
 };
 template <class P, class V>
-    requires std::is_same_v<std::remove_const_t<P>, EnvironmentSpec>
+requires std::is_same_v<std::remove_const_t<P>, EnvironmentSpec>
 void visit(P& p, V&& v) {
-    v(p.kind, Field{"kind", "", -1e30, 1e30, "where light from all around comes from", {"clearSky", "file", "color", "none"}});
+    v(p.kind,
+      Field{"kind", "", -1e30, 1e30, "where light from all around comes from", {"clearSky", "file", "color", "none"}});
     v(p.file, Field{"file", "", -1e30, 1e30, "lat-long picture (.hdr, .exr)"});
     v(p.rotationDeg, Field{"rotationDeg", "deg", -1e6, 1e6, "turns it counter-clockwise seen from above"});
     v(p.intensity, Field{"intensity", "", 0, 1e6, "times its radiance"});
@@ -161,7 +163,7 @@ struct PlacementSpec {
     bool castsShadow = true, visible = true;
 };
 template <class P, class V>
-    requires std::is_same_v<std::remove_const_t<P>, PlacementSpec>
+requires std::is_same_v<std::remove_const_t<P>, PlacementSpec>
 void visit(P& p, V&& v) {
     v(p.name, Field{"name", "", -1e30, 1e30, "what it is called"});
     v(p.position, Field{"position", "m", -1e6, 1e6, "where its origin is"});
@@ -178,7 +180,7 @@ struct ModelSpec {
     bool loop = true;
 };
 template <class P, class V>
-    requires std::is_same_v<std::remove_const_t<P>, ModelSpec>
+requires std::is_same_v<std::remove_const_t<P>, ModelSpec>
 void visit(P& p, V&& v) {
     v(p.file, Field{"file", "", -1e30, 1e30, "model file, relative to the scene file"});
     v(p.clip, Field{"clip", "", -1e30, 1e30, "name of the animation clip that plays; none: it stands as stored"});
@@ -196,7 +198,7 @@ struct CopiesSpec {
     std::uint32_t seed = 1;
 };
 template <class P, class V>
-    requires std::is_same_v<std::remove_const_t<P>, CopiesSpec>
+requires std::is_same_v<std::remove_const_t<P>, CopiesSpec>
 void visit(P& p, V&& v) {
     v(p.countX, Field{"countX", "", 1, 1000, "how many along x"});
     v(p.countZ, Field{"countZ", "", 1, 1000, "how many along z"});
@@ -210,9 +212,9 @@ void visit(P& p, V&& v) {
 
 // Walks along points at a steady speed, its +z forward.
 struct WalkSpec {
-    std::vector<Vec3> points;    // metres, at least 2
-    float speed = 1.2f;          // m/s
-    bool loop = false;           // back to the first point at the end (a closed way)
+    std::vector<Vec3> points;  // metres, at least 2
+    float speed = 1.2f;        // m/s
+    bool loop = false;         // back to the first point at the end (a closed way)
 };
 
 struct ModelEntry {
@@ -221,7 +223,7 @@ struct ModelEntry {
     PlacementSpec placement;
     CopiesSpec copies;
     std::optional<WalkSpec> walk;
-    std::vector<std::string> hide;   // node names not drawn; `*` at the end matches any rest
+    std::vector<std::string> hide;  // node names not drawn; `*` at the end matches any rest
 };
 
 struct ShapeEntry {
@@ -240,14 +242,15 @@ struct RenderSpec {
     std::uint32_t seed = 1;
 };
 template <class P, class V>
-    requires std::is_same_v<std::remove_const_t<P>, RenderSpec>
+requires std::is_same_v<std::remove_const_t<P>, RenderSpec>
 void visit(P& p, V&& v) {
     v(p.width, Field{"width", "px", 1, 16384, "width of the picture"});
     v(p.height, Field{"height", "px", 1, 16384, "height of the picture"});
     v(p.fps, Field{"fps", "1/s", 0.01, 1000, "frames a second of films"});
     v(p.duration, Field{"duration", "s", 0, 1e6, "length of a film when no frame range is given"});
     v(p.time, Field{"time", "s", -1e6, 1e6, "scene time of a still"});
-    v(p.antialiasing, Field{"antialiasing", "", -1e30, 1e30, "how edges are smoothed", {"none", "supersample", "temporal"}});
+    v(p.antialiasing,
+      Field{"antialiasing", "", -1e30, 1e30, "how edges are smoothed", {"none", "supersample", "temporal"}});
     v(p.samples, Field{"samples", "", 1, 1024, "samples a pixel of supersample"});
     v(p.seed, Field{"seed", "", 0, 4294967295.0, "of every random choice"});
 }
@@ -255,26 +258,26 @@ void visit(P& p, V&& v) {
 enum class CameraKind { fixed, orbit, path, modelCamera, poses, fitted };
 
 struct Scene {
-    std::filesystem::path file;        // relative paths in it are relative to its folder
+    std::filesystem::path file;  // relative paths in it are relative to its folder
     CameraKind cameraKind = CameraKind::fitted;
     CameraSpec camera;
     OrbitSpec orbit;
-    std::vector<CameraKey> cameraKeys;         // by time
-    std::string cameraPosesFile;               // io/poses.h
-    std::string cameraOfModel;                 // "model name" or "model name/camera name"
+    std::vector<CameraKey> cameraKeys;  // by time
+    std::string cameraPosesFile;        // io/poses.h
+    std::string cameraOfModel;          // "model name" or "model name/camera name"
     std::optional<IntrinsicsSpec> intrinsics;
     Place cameraPlace;
     bool sunGiven = false;
     SunSpec sun;
-    bool sunOff = false;                       // sun = "none"
+    bool sunOff = false;  // sun = "none"
     EnvironmentSpec environment;
     Place environmentPlace;
     std::vector<LightSpec> lights;
     std::vector<ModelEntry> models;
     std::vector<ShapeEntry> shapes;
     RenderSpec render;
-    bool bareModel = false;                    // made by sceneForModel: loadContent adds the ground
-    std::vector<RawTable> tables;              // [shadows] [lighting] [post] and the techniques'
+    bool bareModel = false;        // made by sceneForModel: loadContent adds the ground
+    std::vector<RawTable> tables;  // [shadows] [lighting] [post] and the techniques'
     const RawTable* table(std::string_view name) const;
 };
 
@@ -284,17 +287,20 @@ struct Override {
 };
 Result<Override> parseOverride(std::string_view words);
 
-// Reads a scene file. Errors: one line with file, line, key, what was found and what was expected; those of overrides are usage errors.
+// Reads a scene file. Errors: one line with file, line, key, what was found and what was expected; those of overrides
+// are usage errors.
 Result<Scene> loadScene(const std::filesystem::path& file, std::span<const Override> overrides = {});
 // The same from text; `file` names it in errors and gives the folder of relative paths.
-Result<Scene> parseScene(std::string_view text, const std::filesystem::path& file, std::span<const Override> overrides = {});
-// A scene around one model file: fitted camera at a flattering angle, clear sky, a ground that takes shadow, its first clip playing.
+Result<Scene> parseScene(std::string_view text, const std::filesystem::path& file,
+                         std::span<const Override> overrides = {});
+// A scene around one model file: fitted camera at a flattering angle, clear sky, a ground that takes shadow, its first
+// clip playing.
 Result<Scene> sceneForModel(const std::filesystem::path& modelFile, std::span<const Override> overrides = {});
 // loadScene for .toml, sceneForModel for anything io::readModel takes; an error that lists both for any other.
 Result<Scene> openScene(const std::filesystem::path& file, std::span<const Override> overrides = {});
 
-// Binds a raw table to a technique's parameters; unknown keys are errors that name the nearest known. `nested` names are allowed to be
-// missing here (bound elsewhere).
+// Binds a raw table to a technique's parameters; unknown keys are errors that name the nearest known. `nested` names
+// are allowed to be missing here (bound elsewhere).
 template <class Params>
 Result<void> bindTable(const RawTable& table, Params& params) {
     for (const RawEntry& entry : table.entries) {

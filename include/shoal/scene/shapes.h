@@ -21,7 +21,8 @@ struct ShapeSetting {
 // The kinds makeShape knows: "plane", "box", "tank", "pier", ...
 const std::vector<std::string>& shapeNames();
 
-// Makes a shape. Same kind and settings, same bits. Errors begin with the setting's name: "width: found -1, expected ...".
+// Makes a shape. Same kind and settings, same bits. Errors begin with the setting's name: "width: found -1, expected
+// ...".
 Result<Model> makeShape(std::string_view kind, std::span<const ShapeSetting> settings);
 
 // The parameters of a kind with their defaults, for documentation; empty for an unknown kind.

@@ -6,7 +6,9 @@
 namespace shoal::scene {
 namespace {
 
-Result<Scene> parse(std::string_view text, std::vector<Override> overrides = {}) { return parseScene(text, "folder/test.toml", overrides); }
+Result<Scene> parse(std::string_view text, std::vector<Override> overrides = {}) {
+    return parseScene(text, "folder/test.toml", overrides);
+}
 
 std::string errorOf(std::string_view text, std::vector<Override> overrides = {}) {
     auto scene = parse(text, std::move(overrides));
@@ -73,7 +75,7 @@ waves = { kind = "sum", components = [ { amplitude = 0.1, q = 2 }, { amplitude =
 
 struct Mistake {
     const char* text;
-    const char* line;       // how the message begins
+    const char* line;  // how the message begins
     const char* contains;
 };
 
@@ -94,8 +96,10 @@ TEST(SceneFile, NamesEveryMistake) {
         {"[sun]\nelevationDeg = 120\n", "folder/test.toml:2: sun.elevationDeg: ", "90"},
         {"[[model]]\nscale = 1\n", "folder/test.toml:1: model[0].file: ", "expected"},
         {"[[model]]\nfile = \"a.glb\"\nscale = 0\n", "folder/test.toml:1: model[0].scale: ", "0"},
-        {"[[model]]\nfile = \"a.glb\"\nwalk = { points = [[0, 0, 0]] }\n", "folder/test.toml:3: model[0].walk.points: ", "at least 2"},
-        {"[[model]]\nfile = \"a.glb\"\ncopies = { countX = 1000, countZ = 1000 }\n", "folder/test.toml:3: model[0].copies: ", "100000"},
+        {"[[model]]\nfile = \"a.glb\"\nwalk = { points = [[0, 0, 0]] }\n",
+         "folder/test.toml:3: model[0].walk.points: ", "at least 2"},
+        {"[[model]]\nfile = \"a.glb\"\ncopies = { countX = 1000, countZ = 1000 }\n",
+         "folder/test.toml:3: model[0].copies: ", "100000"},
         {"model = 3\n", "folder/test.toml:1: model: ", "array of tables"},
         {"[[shape]]\nkind = \"plain\"\n", "folder/test.toml:2: shape[0].kind: ", "\"plane\""},
         {"[[shape]]\nsize = 3\n", "folder/test.toml:1: shape[0].kind: ", "expected"},
@@ -115,8 +119,10 @@ TEST(SceneFile, NamesEveryMistake) {
 }
 
 TEST(SceneFile, OverridesReachEveryValue) {
-    auto scene = parse("[[model]]\nfile = \"a.glb\"\n",
-                       {{"camera.position", "[1, 2, 3]"}, {"model[0].clip", "Run"}, {"post.exposureEv", "2"}, {"environment", "none"}});
+    auto scene = parse("[[model]]\nfile = \"a.glb\"\n", {{"camera.position", "[1, 2, 3]"},
+                                                         {"model[0].clip", "Run"},
+                                                         {"post.exposureEv", "2"},
+                                                         {"environment", "none"}});
     ASSERT_TRUE(scene) << scene.error().message;
     EXPECT_EQ(scene->camera.position, (Vec3{1, 2, 3}));
     EXPECT_EQ(scene->models[0].model.clip, "Run");
@@ -125,8 +131,9 @@ TEST(SceneFile, OverridesReachEveryValue) {
 }
 
 TEST(SceneFile, MistakesInOverridesAreUsageErrors) {
-    for (const Override& wrong : {Override{"camera.fovDg", "3"}, Override{"camera.fovDeg", "many"}, Override{"model[3].clip", "Run"},
-                                  Override{"camera..x", "1"}, Override{"camera[", "1"}, Override{"camera.fovDeg.x", "1"}}) {
+    for (const Override& wrong :
+         {Override{"camera.fovDg", "3"}, Override{"camera.fovDeg", "many"}, Override{"model[3].clip", "Run"},
+          Override{"camera..x", "1"}, Override{"camera[", "1"}, Override{"camera.fovDeg.x", "1"}}) {
         auto scene = parse("[camera]\nfovDeg = 50\n", {wrong});
         ASSERT_FALSE(scene) << wrong.key;
         EXPECT_EQ(scene.error().kind, ErrorKind::usage) << scene.error().message;
