@@ -6,6 +6,14 @@
 
 #include "support/tool_contract.h"
 
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define SHOAL_SANITIZED 1
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define SHOAL_SANITIZED 1
+#endif
+#endif
+
 namespace shoal::test {
 namespace {
 
@@ -80,6 +88,9 @@ class ToolExamples : public testing::TestWithParam<std::string> {};
 
 // From a folder where scenes/ is the shipped one and a.png, b.png are two pictures.
 TEST_P(ToolExamples, WorkAsPrinted) {
+#if SHOAL_SANITIZED
+    GTEST_SKIP() << "too slow under sanitizers";
+#endif
     const fs::path scenes = fs::path(SHOAL_SOURCE_DIR) / "scenes";
     const TestFolder folder;
     fs::create_directory_symlink(scenes, folder / "scenes");
