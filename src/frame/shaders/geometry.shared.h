@@ -6,13 +6,13 @@
 
 // Vertex attribute locations.
 #define SHOAL_ATTRIBUTE_POSITION 0
-#define SHOAL_ATTRIBUTE_NORMAL 1      // octahedral, snorm16 x 2
-#define SHOAL_ATTRIBUTE_TANGENT 2     // snorm10 x 3, w (2 bits) handedness
+#define SHOAL_ATTRIBUTE_NORMAL 1   // octahedral, snorm16 x 2
+#define SHOAL_ATTRIBUTE_TANGENT 2  // snorm10 x 3, w (2 bits) handedness
 #define SHOAL_ATTRIBUTE_UV 3
-#define SHOAL_ATTRIBUTE_COLOR 4       // square root of the linear colour, unorm8 x 4 (alpha plain)
+#define SHOAL_ATTRIBUTE_COLOR 4  // square root of the linear colour, unorm8 x 4 (alpha plain)
 #define SHOAL_ATTRIBUTE_UV1 5
-#define SHOAL_ATTRIBUTE_PREVIOUS 6    // position in the frame before
-#define SHOAL_ATTRIBUTE_DRAW 7        // index of the draw record, one an instance
+#define SHOAL_ATTRIBUTE_PREVIOUS 6  // position in the frame before
+#define SHOAL_ATTRIBUTE_DRAW 7      // index of the draw record, one an instance
 
 // Bits of DrawRecord::flags.
 #define SHOAL_DRAW_MIRRORED 1u
@@ -35,8 +35,8 @@ using uint = std::uint32_t;
 #endif
 
 struct DrawRecord {
-    vec4 worldFromModel[3];      // rows
-    vec4 previousFromModel[3];   // rows, of the frame before
+    vec4 worldFromModel[3];     // rows
+    vec4 previousFromModel[3];  // rows, of the frame before
     vec4 tint;
     uint material;
     uint objectId;
@@ -47,10 +47,10 @@ struct DrawRecord {
 // 256 bytes, so that one record can be bound as a uniform block too.
 struct MaterialRecord {
     vec4 baseColor;
-    vec4 surface;     // roughness, metallic, F0 / 0.16, G-buffer flags / 255
-    vec4 emission;    // rgb radiance, w alpha cutoff
-    vec4 detail;      // normal scale, occlusion strength, transmission, ior
-    vec4 uv[10];      // two rows a texture: (m00, m01, offset x, uv set), (m10, m11, offset y, unused)
+    vec4 surface;   // roughness, metallic, F0 / 0.16, G-buffer flags / 255
+    vec4 emission;  // rgb radiance, w alpha cutoff
+    vec4 detail;    // normal scale, occlusion strength, transmission, ior
+    vec4 uv[10];    // two rows a texture: (m00, m01, offset x, uv set), (m10, m11, offset y, unused)
     vec4 unused[2];
 };
 

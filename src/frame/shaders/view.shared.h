@@ -16,18 +16,19 @@ using vec4 = Vec4;
 #endif
 
 SHOAL_VIEW_BLOCK_BEGIN {
-    mat4 clipFromWorld;           // jittered
-    mat4 clipFromView;            // jittered
-    mat4 viewFromClip;            // jittered
+    mat4 clipFromWorld;  // jittered
+    mat4 clipFromView;   // jittered
+    mat4 viewFromClip;   // jittered
     mat4 viewFromWorld;
     mat4 worldFromView;
-    mat4 steadyClipFromWorld;     // without jitter
-    mat4 previousClipFromWorld;   // without jitter, the frame before
-    vec4 eye;                     // xyz world, w: 1 orthographic, 0 perspective
-    vec4 size;                    // width, height, 1 / width, 1 / height (pixels)
-    vec4 timing;                  // time s, time step s, frame index, sample index
-    vec4 depthRange;              // near m, jitter x px, jitter y px, unused
-} SHOAL_VIEW_BLOCK_END
+    mat4 steadyClipFromWorld;    // without jitter
+    mat4 previousClipFromWorld;  // without jitter, the frame before
+    vec4 eye;                    // xyz world, w: 1 orthographic, 0 perspective
+    vec4 size;                   // width, height, 1 / width, 1 / height (pixels)
+    vec4 timing;                 // time s, time step s, frame index, sample index
+    vec4 depthRange;             // near m, jitter x px, jitter y px, unused
+}
+SHOAL_VIEW_BLOCK_END
 
 #ifdef __cplusplus
 }  // namespace shoal::frame
