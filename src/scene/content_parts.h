@@ -14,4 +14,11 @@ Image toRgb(Image picture);
 // Whether the camera that `scene.cameraOfModel` names exists.
 Result<void> checkModelCamera(const Scene& scene, const Content& content);
 
+// Content::bounds, focus and focusBoxes: of all there is, and of what is worth looking at.
+void measure(Content& content);
+
+// A wide plane under a bare model takes its shadow. It reflects as much as the sky's own ground, so the two meet
+// without a line. Models that are places (a street, a harbour) bring their own ground.
+Result<void> addGround(const EnvironmentSpec& environment, Content& content);
+
 }  // namespace shoal::scene
