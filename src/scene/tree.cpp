@@ -1,6 +1,7 @@
 #include "scene/tree.h"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 
 // toml++ 3.3.0 aborts on broken tables such as "\n[\n["; without the check its parser reports them as errors.
@@ -43,7 +44,10 @@ const char* describeKind(const Tree& tree) {
 
 namespace {
 
-Result<Tree> convert(const toml::node& node, const std::string& file);
+// Scenes need five levels; every level is a few frames of the stack here and in what reads the tree.
+constexpr int kDeepestLevel = 32;
+
+Result<Tree> convert(const toml::node& node, const std::string& file, int level);
 
 bool isNumber(const toml::node& node) { return node.is_integer() || node.is_floating_point(); }
 
@@ -51,7 +55,7 @@ double numberOf(const toml::node& node) {
     return node.is_integer() ? double(node.as_integer()->get()) : node.as_floating_point()->get();
 }
 
-Result<Tree> convertArray(const toml::array& array, Tree tree) {
+Result<Tree> convertArray(const toml::array& array, Tree tree, int level) {
     if (!array.empty() && std::all_of(array.begin(), array.end(), isNumber)) {
         tree.kind = Tree::Kind::value;
         tree.value.kind = FieldValue::Kind::numbers;
@@ -60,16 +64,16 @@ Result<Tree> convertArray(const toml::array& array, Tree tree) {
     }
     tree.kind = Tree::Kind::array;
     for (const toml::node& element : array) {
-        SHOAL_TRY_ASSIGN(Tree child, convert(element, tree.place.file));
+        SHOAL_TRY_ASSIGN(Tree child, convert(element, tree.place.file, level + 1));
         tree.elements.push_back(std::move(child));
     }
     return tree;
 }
 
-Result<Tree> convertTable(const toml::table& table, Tree tree) {
+Result<Tree> convertTable(const toml::table& table, Tree tree, int level) {
     tree.kind = Tree::Kind::table;
     for (const auto& [key, value] : table) {
-        SHOAL_TRY_ASSIGN(Tree child, convert(value, tree.place.file));
+        SHOAL_TRY_ASSIGN(Tree child, convert(value, tree.place.file, level + 1));
         child.place.line = int(key.source().begin.line);
         tree.members.push_back({std::string(key.str()), std::move(child)});
     }
@@ -78,11 +82,14 @@ Result<Tree> convertTable(const toml::table& table, Tree tree) {
     return tree;
 }
 
-Result<Tree> convert(const toml::node& node, const std::string& file) {
+Result<Tree> convert(const toml::node& node, const std::string& file, int level) {
     Tree tree;
     tree.place = {file, int(node.source().begin.line)};
-    if (const auto* table = node.as_table()) return convertTable(*table, std::move(tree));
-    if (const auto* array = node.as_array()) return convertArray(*array, std::move(tree));
+    if (level > kDeepestLevel)
+        return badInput(tree.place.describe() + ": found tables nested more than " + std::to_string(kDeepestLevel) +
+                        " deep, expected fewer");
+    if (const auto* table = node.as_table()) return convertTable(*table, std::move(tree), level);
+    if (const auto* array = node.as_array()) return convertArray(*array, std::move(tree), level);
     tree.kind = Tree::Kind::value;
     if (node.is_boolean()) {
         tree.value.kind = FieldValue::Kind::boolean;
@@ -136,7 +143,7 @@ Result<std::vector<Step>> splitKey(const std::string& key) {
 Tree treeOfWords(const std::string& words) {
     toml::parse_result parsed = toml::parse("value = " + words + "\n");
     if (parsed && parsed.table().size() == 1) {
-        if (auto tree = convert(*parsed.table().get("value"), "")) {
+        if (auto tree = convert(*parsed.table().get("value"), "", 0)) {
             const auto forgetPlaces = [](auto& self, Tree& t) -> void {
                 t.place = {};
                 for (auto& member : t.members) self(self, member.tree);
@@ -155,10 +162,33 @@ Tree treeOfWords(const std::string& words) {
 
 }  // namespace
 
+namespace {
+
+// Line of a dotted key (a.b.c) with more than `most` dots, 0 where there is none. toml++ limits nested values but not
+// these, and overflows the stack on long ones. What can stand in a key makes a run; a dot after a dot is prose.
+int lineOfDeepKey(std::string_view text, int most) {
+    int line = 1, dots = 0;
+    char before = 0;
+    for (const char c : text) {
+        const bool inKey = std::isalnum(static_cast<unsigned char>(c)) ||
+                           std::string_view("_-.\"' \t").find(c) != std::string_view::npos;
+        if (!inKey) dots = 0;
+        if (c == '.' && before != '.' && ++dots > most) return line;
+        if (c == '\n') ++line;
+        if (c != ' ' && c != '\t') before = c;
+    }
+    return 0;
+}
+
+}  // namespace
+
 Result<Tree> parseTree(std::string_view text, const std::filesystem::path& file) {
     if (text.size() > kSceneTextLimit)
         return badInput(file.string() + ": " + std::to_string(text.size()) +
                         " bytes, expected a scene file of at most " + std::to_string(kSceneTextLimit));
+    if (const int line = lineOfDeepKey(text, 2 * kDeepestLevel))
+        return badInput(file.string() + ":" + std::to_string(line) + ": found a key of more than " +
+                        std::to_string(2 * kDeepestLevel) + " parts, expected fewer");
     const toml::parse_result parsed = toml::parse(text, file.string());
     if (!parsed) {
         const toml::parse_error& error = parsed.error();
@@ -167,7 +197,7 @@ Result<Tree> parseTree(std::string_view text, const std::filesystem::path& file)
         return badInput(file.string() + ":" + std::to_string(error.source().begin.line) +
                         ": not valid TOML: " + description);
     }
-    return convert(parsed.table(), file.string());
+    return convert(parsed.table(), file.string(), 0);
 }
 
 Result<void> applyOverride(Tree& root, const Override& change) {

@@ -109,7 +109,15 @@ TEST(MutatedScenes, DeepNestingIsRefused) {
     EXPECT_FALSE(parseScene(deep, "deep.toml"));
     std::string dotted = "water";
     for (int i = 0; i < 20000; ++i) dotted += ".a";
-    (void)parseScene(dotted + " = 1", "dotted.toml");
+    EXPECT_FALSE(parseScene(dotted + " = 1", "dotted.toml"));
+    EXPECT_FALSE(parseScene("[" + dotted + "]", "dotted.toml"));
+    EXPECT_FALSE(parseScene("water = { a" + dotted.substr(5) + " = 1 }", "dotted.toml"));
+    std::string quoted = "water";
+    for (int i = 0; i < 1000000; ++i) quoted += ". \"a\" ";
+    EXPECT_FALSE(parseScene(quoted + " = 1", "quoted.toml"));
+    EXPECT_TRUE(parseScene("# ................................................................................\n" +
+                               std::string("[camera]\nposition = [1.0, 2.0, 3.0]\n"),
+                           "prose.toml"));
 }
 
 }  // namespace
