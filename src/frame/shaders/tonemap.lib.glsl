@@ -16,17 +16,20 @@ SHOAL_FUNCTION float srgbEncode(float x) {
 }
 SHOAL_FUNCTION vec3 srgbEncode(vec3 c) { return vec3(srgbEncode(c.x), srgbEncode(c.y), srgbEncode(c.z)); }
 
-// One channel of the contrast curve: x is log radiance over the range, in [0, 1].
+// One channel of the contrast curve: x is log radiance over the range, in [0, 1]. The sigmoid's own powers cost
+// llvmpipe 2 ms of a picture of 1280x720; two polynomials (minimax, slope 2 at the pivot) keep within 1.1e-4 of it.
 SHOAL_FUNCTION float agxContrast(float x) {
     const float pivot = 20.0f / 33.0f;
-    const float toeScale = 59.507875f;          // ((2 p)^3 / (1/2)^3 - 1) / p^3 for p = 20/33
-    const float shoulderScale = 69.862789f;     // the same with 3.25 and 13/33
     float t = x - pivot;
     bool toe = t < 0.0f;
-    float power = toe ? 3.0f : 3.25f;
-    float scale = toe ? toeScale : shoulderScale;
-    float bend = 1.0f + scale * pow(max(abs(t), 1e-6f), power);
-    return 0.5f + 2.0f * t * pow(bend, -1.0f / power);
+    float q = toe ? 429.8201f : 2571.153f;
+    q = q * t + (toe ? 1182.815f : -3874.571f);
+    q = q * t + (toe ? 1299.269f : 2113.563f);
+    q = q * t + (toe ? 704.0126f : -446.0986f);
+    q = q * t + (toe ? 178.7774f : 13.35252f);
+    q = q * t + (toe ? 11.95983f : -1.05212f);
+    q = q * t + (toe ? 0.3647819f : 0.007735556f);
+    return 0.5f + t * (2.0f + t * q);
 }
 
 SHOAL_FUNCTION vec3 agx(vec3 radiance) {
