@@ -70,10 +70,11 @@ void main() {
     float a = 1.0 / (1.0 + toEye.z), b = -toEye.x * toEye.y * a;
     vec3 right = vec3(1.0 - toEye.x * toEye.x * a, b, -toEye.x), up = vec3(b, 1.0 - toEye.y * toEye.y * a, -toEye.y);
     float open = 0.0, all = 0.0;
+    vec2 axis = vec2(cos(turn * kHalfPi), sin(turn * kHalfPi));
     for (int slice = 0; slice < kSlices; ++slice) {
-        float angle = (float(slice) + turn) * (2.0 * kHalfPi / float(kSlices));
         // The slice is the plane of toEye and `tangent`, even around toEye; on the screen it runs `along`.
-        vec3 tangent = right * cos(angle) + up * sin(angle);
+        vec3 tangent = right * axis.x + up * axis.y;
+        axis = vec2(-axis.y, axis.x);   // the second slice stands across the first
         vec3 across = cross(tangent, toEye);
         vec2 along = normalize(tangent.xy * toEye.z - toEye.xy * tangent.z);
         vec3 projected = normal - across * dot(normal, across);
@@ -92,10 +93,13 @@ void main() {
             ahead = raised(ahead, leastAhead, pixel + offset, position, toEye, normal);
             behind = raised(behind, leastBehind, pixel - offset, position, toEye, normal);
         }
-        float h0 = -fastAcos(clamp(behind, -1.0, 1.0));
-        float h1 = fastAcos(clamp(ahead, -1.0, 1.0));
+        behind = clamp(behind, -1.0, 1.0), ahead = clamp(ahead, -1.0, 1.0);
+        float h0 = -fastAcos(behind), h1 = fastAcos(ahead);
+        // cos(2 h0 - n) + cos(2 h1 - n) from the cosines that are there already.
+        float bent = 2.0 * (behind * behind + ahead * ahead - 1.0) * cosNormal +
+                     2.0 * (ahead * sqrt(1.0 - ahead * ahead) - behind * sqrt(1.0 - behind * behind)) * sinNormal;
         // [Jimenez et al. 2016] eq. 7: the arc between the horizons, weighted with the cosine to the normal.
-        float arc = 2.0 * cosNormal + 2.0 * (h0 + h1) * sinNormal - cos(2.0 * h0 - n) - cos(2.0 * h1 - n);
+        float arc = 2.0 * cosNormal + 2.0 * (h0 + h1) * sinNormal - bent;
         open += 0.25 * arc * projectedLength;
         all += (cosNormal + n * sinNormal) * projectedLength;   // the same with nothing in the way
     }
