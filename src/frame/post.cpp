@@ -130,8 +130,8 @@ Result<void> Post::State::resizeSums(int newWidth, int newHeight) {
 Result<void> Post::State::resizeHistory(int newWidth, int newHeight) {
     if (history[0] && history[0].width() == newWidth && history[0].height() == newHeight) return {};
     for (int i = 0; i < 2; ++i) {
-        SHOAL_TRY_ASSIGN(history[i], makeTarget(device, GL_RGBA32F, newWidth, newHeight, true, "history"));
-        SHOAL_TRY_ASSIGN(moments[i], makeTarget(device, GL_RG32F, newWidth, newHeight, true, "history moments"));
+        SHOAL_TRY_ASSIGN(history[i], makeTarget(device, GL_RGBA32F, newWidth, newHeight, false, "history"));
+        SHOAL_TRY_ASSIGN(moments[i], makeTarget(device, GL_RGBA16F, newWidth, newHeight, false, "history moments"));
         const gl::Framebuffer::Attachment colors[] = {{history[i].view()}, {moments[i].view()}};
         SHOAL_TRY_ASSIGN(toHistory[i], gl::Framebuffer::create(device, colors, {}, "history"));
     }
