@@ -42,7 +42,7 @@ void addRender(CLI::App& app, RenderOptions& o) {
     verb->add_option("--time", o.time, "scene time in seconds of a still, or of frame 0");
     verb->add_option("--frames", o.frames, "FIRST:END, half open: frames FIRST to END - 1");
     verb->add_option("--fps", o.fps, "frames a second; default: the scene's, 30");
-    verb->add_option("--samples", o.samples, "samples a pixel of supersampling; default: the scene's, 8");
+    verb->add_option("--samples", o.samples, "samples a pixel of supersampling; default: the scene's, 4");
     verb->add_option("--antialiasing", o.antialiasing,
                      "none, supersample or temporal; default: the scene's, supersample");
     verb->add_option("--aov", o.aovs, aovHelp());

@@ -28,7 +28,7 @@ struct FrameRequest {
     float timeStep = 1.0f / 30;                // to the frame before (motion)
     std::uint32_t frameIndex = 0;              // 0 begins a sequence: history and automatic exposure start anew
     std::string antialiasing = "supersample";  // "none", "supersample", "temporal"
-    int samples = 8;                           // of supersample, 1..1024
+    int samples = 4;                           // of supersample, 1..1024
     std::uint32_t seed = 1;  // shifts where samples fall in the pixel and the noise of ambient occlusion
     std::optional<light::Camera> camera = {};  // instead of the scene's
 };

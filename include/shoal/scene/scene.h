@@ -238,7 +238,7 @@ struct RenderSpec {
     float fps = 30, duration = 10;
     float time = 0;
     std::string antialiasing = "supersample";
-    int samples = 8;
+    int samples = 4;
     std::uint32_t seed = 1;
 };
 template <class P, class V>
