@@ -5,6 +5,7 @@
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
+#include <future>
 
 #include <shoal/core/parallel.h>
 #include <shoal/core/progress.h>
@@ -70,13 +71,20 @@ Result<void> run(const RenderOptions& o) {
     // A scene that cannot be read is told before a device is asked for.
     SHOAL_TRY_ASSIGN(const scene::Scene scene, scene::openScene(o.scene, overrides));
     const LogSink log = o.quiet ? nullSink() : stderrSink(o.debug ? LogLevel::debug : LogLevel::warning);
-    SHOAL_TRY_ASSIGN(scene::Content content, scene::loadContent(scene, log));
+    // Files are read while the driver starts.
+    std::future<Result<scene::Content>> reading =
+        std::async(std::launch::async, [&] { return scene::loadContent(scene, log); });
     gl::DeviceOptions deviceOptions;
     deviceOptions.device = o.device;
     deviceOptions.log = log;
     deviceOptions.debug = o.debug;
-    SHOAL_TRY_ASSIGN(const auto device, openDevice(deviceOptions));
-    SHOAL_TRY_ASSIGN(const auto pipeline, pipeline::Pipeline::create(*device));
+    auto opened = openDevice(deviceOptions);
+    auto created =
+        opened ? pipeline::Pipeline::create(**opened) : Result<std::unique_ptr<pipeline::Pipeline>>(opened.error());
+    // What is wrong with the scene's files is told first, whatever the device says.
+    SHOAL_TRY_ASSIGN(scene::Content content, reading.get());
+    SHOAL_TRY_ASSIGN(const auto device, std::move(opened));
+    SHOAL_TRY_ASSIGN(const auto pipeline, std::move(created));
     SHOAL_TRY(pipeline->setScene(scene, std::move(content)));
 
     output.fps = scene.render.fps;

@@ -218,6 +218,8 @@ Pipeline::Pipeline(std::unique_ptr<State> state) : state_(std::move(state)) {}
 Pipeline::~Pipeline() = default;
 
 Result<std::unique_ptr<Pipeline>> Pipeline::create(gl::Device& device) {
+    // Builds the geometry's programs too, which setScene then finds ready: hosts create while they load.
+    SHOAL_TRY(frame::Geometry::create(device));
     SHOAL_TRY_ASSIGN(frame::Lighting lighting, frame::Lighting::create(device));
     SHOAL_TRY_ASSIGN(frame::Post post, frame::Post::create(device));
     return std::unique_ptr<Pipeline>(
