@@ -14,14 +14,6 @@ constexpr float kFalloff = 0.6f;
 // Two pixels are of one surface when their depths, slopes taken off, differ by less than this part of the depth.
 constexpr float kDepthTolerance = 0.02f;
 
-gl::Texture makeTarget(gl::Device& device, gl::Enum format, int width, int height, const char* label) {
-    gl::TextureDesc desc;
-    desc.format = format;
-    desc.width = width, desc.height = height;
-    desc.label = label;
-    return gl::Texture::create(device, desc);
-}
-
 }  // namespace
 
 Result<AmbientOcclusion> AmbientOcclusion::create(gl::Device& device) {

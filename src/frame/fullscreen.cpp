@@ -39,6 +39,16 @@ Result<const gl::Program*> fullscreenProgram(gl::Device& device, const std::stri
     return device.programs().get(desc);
 }
 
+gl::Texture makeTarget(gl::Device& device, gl::Enum format, int width, int height, const char* label, int levels) {
+    gl::TextureDesc desc;
+    desc.format = format;
+    desc.width = width, desc.height = height;
+    desc.levels = levels;
+    if (levels != 1) desc.minFilter = GL_LINEAR_MIPMAP_LINEAR, desc.magFilter = GL_LINEAR;
+    desc.label = label;
+    return gl::Texture::create(device, desc);
+}
+
 void registerFrameShaders() { gl::registerShaders(embeddedShaders()); }
 
 }  // namespace shoal::frame

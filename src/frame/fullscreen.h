@@ -28,6 +28,10 @@ private:
 Result<const gl::Program*> fullscreenProgram(gl::Device& device, const std::string& fragment,
                                              std::vector<std::pair<std::string, std::string>> defines = {});
 
+// A texture without mips, sampled nearest, for a pass to draw into; empty where there is no memory (the device logs
+// it).
+gl::Texture makeTarget(gl::Device& device, gl::Enum format, int width, int height, const char* label, int levels = 1);
+
 // Makes what shoal::frame embeds known to shoal::gl; every create() of this module calls it.
 void registerFrameShaders();
 

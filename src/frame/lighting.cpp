@@ -23,14 +23,6 @@ constexpr float kTexelsPerPixelOfSmooth = 0.75f;
 enum Variant { kNoSun = 1, kNoLocalLights = 2, kSunIrradiance = 4, kTerms = 8 };
 constexpr int kShadeVariants = 16;
 
-gl::Texture makeTarget(gl::Device& device, gl::Enum format, int width, int height, const char* label) {
-    gl::TextureDesc desc;
-    desc.format = format;
-    desc.width = width, desc.height = height;
-    desc.label = label;
-    return gl::Texture::create(device, desc);
-}
-
 Result<const gl::Program*> shadeProgram(gl::Device& device, int variant) {
     const std::pair<Variant, const char*> names[] = {
         {kNoSun, "NO_SUN"}, {kNoLocalLights, "NO_LOCAL_LIGHTS"}, {kSunIrradiance, "SUN_IRRADIANCE"}, {kTerms, "TERMS"}};

@@ -12,17 +12,6 @@ namespace {
 
 constexpr int kProjectionLocation = 0;  // uniform of linearize_depth.comp
 
-gl::Texture makeTarget(gl::Device& device, gl::Enum format, int width, int height, const char* label, int levels = 1) {
-    gl::TextureDesc desc;
-    desc.format = format;
-    desc.width = width;
-    desc.height = height;
-    desc.levels = levels;
-    desc.label = label;
-    if (levels != 1) desc.minFilter = GL_LINEAR_MIPMAP_LINEAR, desc.magFilter = GL_LINEAR;
-    return gl::Texture::create(device, desc);
-}
-
 }  // namespace
 
 Result<Targets> Targets::create(gl::Device& device, int width, int height) {

@@ -78,12 +78,12 @@ std::vector<Box> allBoxes(const Content& content) {
     return boxes;
 }
 
-bool hasGround(const Content& content) {
+// Whether one of the boxes is the ground of a place.
+bool holdGround(const std::vector<Box>& boxes, const Bounds& all) {
     constexpr float kPlaceWidth = 15;  // metres: a thin thing of less is a thing
-    for (const Box& box : allBoxes(content))
-        if (isGround(box.bounds, content.bounds) && std::max(box.bounds.size().x, box.bounds.size().z) > kPlaceWidth)
-            return true;
-    return false;
+    return std::any_of(boxes.begin(), boxes.end(), [&](const Box& box) {
+        return isGround(box.bounds, all) && std::max(box.bounds.size().x, box.bounds.size().z) > kPlaceWidth;
+    });
 }
 
 }  // namespace
@@ -91,6 +91,7 @@ bool hasGround(const Content& content) {
 void measure(Content& content) {
     std::vector<Box> boxes = allBoxes(content);
     for (const Box& box : boxes) content.bounds.add(box.bounds);
+    content.hasGround = holdGround(boxes, content.bounds);
     std::stable_sort(boxes.begin(), boxes.end(),
                      [](const Box& a, const Box& b) { return a.bounds.radius() > b.bounds.radius(); });
     for (const Box& box : worthLookingAt(std::move(boxes), content.bounds)) {
@@ -101,7 +102,7 @@ void measure(Content& content) {
 
 Result<void> addGround(const EnvironmentSpec& environment, Content& content) {
     const Bounds& bounds = content.bounds;
-    if (bounds.empty() || hasGround(content)) return {};
+    if (bounds.empty() || content.hasGround) return {};
     FieldValue value;
     value.numbers = {std::clamp(double(60.0f * bounds.radius()), 1.0, 1000.0)};
     const ShapeSetting settings[] = {{"width", value}, {"depth", value}};

@@ -45,6 +45,7 @@ struct Content {
     Bounds bounds;                             // of all visible instances at time 0, world
     std::vector<Bounds> focusBoxes;            // one a mesh that is worth looking at
     Bounds focus;                              // the same without wide, empty things: ground, sea, sky dome
+    bool hasGround = false;                    // a wide, thin mesh lies under all there is
 };
 
 // Reads and makes everything, in parallel. Errors name the scene's line and the file.
