@@ -116,6 +116,7 @@ void addShapeInstance(const ShapeEntry& entry, int modelIndex, Content& content)
     Instance instance;
     instance.name = entry.placement.name.empty() ? entry.kind : entry.placement.name;
     instance.model = modelIndex;
+    instance.clip = content.models[std::size_t(modelIndex)].clips.empty() ? -1 : 0;  // a shape that moves, does
     instance.castsShadow = entry.placement.castsShadow;
     instance.visible = entry.placement.visible;
     instance.tint = entry.placement.tint;

@@ -177,10 +177,14 @@ Result<ShapeEntry> parseShape(const Tree& written, const std::string& path) {
     ShapeEntry entry;
     entry.place = tree.place;
     SHOAL_TRY(requireTable(tree, path));
-    const Tree* kind = tree.find("kind");
+    // `shape = "plane"` says the same as `kind = "plane"`.
+    const std::string key = tree.find("shape") ? "shape" : "kind";
+    if (key == "shape" && tree.find("kind"))
+        return errorAt(tree.find("kind")->place, path, "found both kind and shape, expected one of them");
+    const Tree* kind = tree.find(key);
     if (!kind) return errorAt(tree.place, path, "kind: found none, expected a shape such as \"plane\" or \"tank\"");
-    SHOAL_TRY_ASSIGN(entry.kind, textOf(*kind, path + ".kind"));
-    std::vector<std::string> placementKeys = {"kind"};
+    SHOAL_TRY_ASSIGN(entry.kind, textOf(*kind, path + "." + key));
+    std::vector<std::string> placementKeys = {key};
     SHOAL_TRY(bindFields(tree, path, entry.placement, placementKeys));
     SHOAL_TRY(checkScale(tree, path, entry.placement.scale));
     for (const auto& [name, member] : tree.members) {
@@ -192,8 +196,15 @@ Result<ShapeEntry> parseShape(const Tree& written, const std::string& path) {
     }
     const std::vector<std::string>& kinds = shapeNames();
     if (std::find(kinds.begin(), kinds.end(), entry.kind) == kinds.end())
-        return errorAt(kind->place, path + ".kind", unknownWord("shape", entry.kind, kinds));
+        return errorAt(kind->place, path + "." + key, unknownWord("shape", entry.kind, kinds));
     return entry;
+}
+
+// A [[model]] with `shape` in place of `file`.
+Result<ShapeEntry> parseModelShape(const Tree& tree, const std::string& path) {
+    if (const Tree* file = tree.find("file"))
+        return errorAt(file->place, path, "found both file and shape, expected one of them");
+    return parseShape(tree, path);
 }
 
 Result<void> parseEnvironment(const Tree& tree, Scene& scene) {
@@ -305,7 +316,13 @@ Result<Scene> sceneOfTree(const Tree& root, const std::filesystem::path& file) {
     if (const Tree* tree = root.find("model")) {
         SHOAL_TRY(requireArray(*tree, "model"));
         for (std::size_t i = 0; i < tree->elements.size(); ++i) {
-            SHOAL_TRY_ASSIGN(ModelEntry entry, parseModel(tree->elements[i], "model[" + std::to_string(i) + "]"));
+            const std::string path = "model[" + std::to_string(i) + "]";
+            if (tree->elements[i].find("shape")) {  // made on the spot instead of read
+                SHOAL_TRY_ASSIGN(ShapeEntry entry, parseModelShape(tree->elements[i], path));
+                scene.shapes.push_back(std::move(entry));
+                continue;
+            }
+            SHOAL_TRY_ASSIGN(ModelEntry entry, parseModel(tree->elements[i], path));
             scene.models.push_back(std::move(entry));
         }
     }

@@ -1,4 +1,6 @@
 // Scene files: what is bound, and that every mistake gets one line with file, line, key, found and expected.
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include <shoal/scene/scene.h>
@@ -73,6 +75,71 @@ waves = { kind = "sum", components = [ { amplitude = 0.1, q = 2 }, { amplitude =
     EXPECT_EQ(scene->table("post")->entries.at(0).place.line, 28);
 }
 
+TEST(SceneFile, AShapeGoesByItsKindOrByShape) {
+    auto scene = parse(R"(
+environment = "none"
+sun = "none"
+[[shape]]
+kind = "box"
+[[shape]]
+shape = "plane"
+width = 6
+[[model]]
+file = "ruin.glb"
+[[model]]
+shape = "sphere"
+radius = 2
+position = [0, 1, 0]
+)");
+    ASSERT_TRUE(scene) << scene.error().message;
+    EXPECT_EQ(scene->environment.kind, "none");
+    EXPECT_TRUE(scene->sunOff);
+    EXPECT_EQ(scene->models.size(), 1u);
+    ASSERT_EQ(scene->shapes.size(), 3u);
+    const auto entry = [&](std::string_view kind) -> const ShapeEntry& {
+        return *std::find_if(scene->shapes.begin(), scene->shapes.end(), [&](const auto& s) { return s.kind == kind; });
+    };
+    EXPECT_EQ(entry("plane").settings.at(0).key, "width");
+    EXPECT_EQ(entry("plane").settings.size(), 1u);
+    EXPECT_EQ(entry("sphere").placement.position, (Vec3{0, 1, 0}));
+    EXPECT_EQ(entry("sphere").settings.size(), 1u);
+}
+
+TEST(SceneFile, WaterTablesArriveRaw) {
+    auto scene = parse(R"(
+[water]
+level = 0.5
+surfaceVisible = false
+absorption = [0.3, 0.05, 0.01]
+waves = { kind = "sum", periodM = 4, components = [ { amplitude = 0.02, m = 2, q = 1, phase = 0 },
+                                                    { amplitude = 0.015, m = -3, q = 2, phase = 1.3 } ] }
+[water.caustics]
+photons = 640000
+method = "paper"
+)");
+    ASSERT_TRUE(scene) << scene.error().message;
+    const auto entry = [&](const char* table, const char* key) -> const RawEntry& {
+        static const RawEntry none;
+        const RawTable* found = scene->table(table);
+        EXPECT_TRUE(found) << table;
+        if (found)
+            for (const RawEntry& e : found->entries)
+                if (e.key == key) return e;
+        ADD_FAILURE() << table << " has no " << key;
+        return none;
+    };
+    EXPECT_EQ(entry("water", "absorption").value.numbers, (std::vector<double>{0.3, 0.05, 0.01}));
+    EXPECT_EQ(entry("water", "surfaceVisible").value.kind, FieldValue::Kind::boolean);
+    EXPECT_EQ(entry("water.waves", "kind").value.text, "sum");
+    EXPECT_EQ(entry("water.waves", "periodM").value.numbers.at(0), 4);
+    EXPECT_EQ(entry("water.waves.components[0]", "amplitude").value.numbers.at(0), 0.02);
+    EXPECT_EQ(entry("water.waves.components[1]", "m").value.numbers.at(0), -3);
+    EXPECT_EQ(entry("water.waves.components[1]", "phase").place.line, 7);
+    EXPECT_EQ(entry("water.caustics", "method").value.text, "paper");
+    EXPECT_FALSE(scene->table("water.waves.components[2]"));
+    EXPECT_EQ(scene->table("water")->entries.size(), 3u);  // nested tables are not entries too
+}
+
 struct Mistake {
     const char* text;
     const char* line;  // how the message begins
@@ -103,6 +170,10 @@ TEST(SceneFile, NamesEveryMistake) {
         {"model = 3\n", "folder/test.toml:1: model: ", "array of tables"},
         {"[[shape]]\nkind = \"plain\"\n", "folder/test.toml:2: shape[0].kind: ", "\"plane\""},
         {"[[shape]]\nsize = 3\n", "folder/test.toml:1: shape[0].kind: ", "expected"},
+        {"[[shape]]\nshape = \"plain\"\n", "folder/test.toml:2: shape[0].shape: ", "\"plane\""},
+        {"[[shape]]\nshape = \"plane\"\nkind = \"box\"\n", "folder/test.toml:3: shape[0]: ", "one of them"},
+        {"[[model]]\nshape = \"plane\"\nfile = \"a.glb\"\n", "folder/test.toml:3: model[0]: ", "one of them"},
+        {"[[model]]\nshape = \"sphr\"\n", "folder/test.toml:2: model[0].shape: ", "\"sphere\""},
         {"[[light]]\nkind = \"spot\"\nposition = [0, 0, 0]\n", "folder/test.toml:1: light[0].target: ", "another"},
         {"[environment]\nkind = \"file\"\n", "folder/test.toml:1: environment.file: ", "expected"},
         {"environment = \"clearsky\"\n", "folder/test.toml:1: environment", "clearSky"},
