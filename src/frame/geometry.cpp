@@ -49,10 +49,15 @@ Result<void> buildPrograms(State& s) {
             s.transparent[variant],
             cache.get({{"frame/gbuffer.vert", "frame/transparent.frag"}, defines, "transparent surfaces"}));
     }
-    SHOAL_TRY_ASSIGN(s.depthOnly[0], cache.get({{"frame/depth_only.vert", "frame/depth_only.frag"}, {}, "depth only"}));
-    SHOAL_TRY_ASSIGN(
-        s.depthOnly[1],
-        cache.get({{"frame/depth_only.vert", "frame/depth_only.frag"}, {{"MASKED", "1"}}, "masked depth only"}));
+    for (const bool masked : {false, true}) {
+        for (const bool peeled : {false, true}) {
+            std::vector<std::pair<std::string, std::string>> defines;
+            if (masked) defines.emplace_back("MASKED", "1");
+            if (peeled) defines.emplace_back("PEEL", "1");
+            SHOAL_TRY_ASSIGN(s.depthOnly[masked][peeled],
+                             cache.get({{"frame/depth_only.vert", "frame/depth_only.frag"}, defines, "depth only"}));
+        }
+    }
     return {};
 }
 

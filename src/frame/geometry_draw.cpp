@@ -90,6 +90,8 @@ void Geometry::drawSurfaces(const Context& context, const GBuffer& target) {
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, target.framebuffer);
     glViewport(0, 0, target.width, target.height);
     setRaster(true, false);
+    const bool clipped = context.clipPlane != Vec4{0, 0, 0, 1};
+    if (clipped) glEnable(GL_CLIP_DISTANCE0);
     for (const DrawRun& run : s.commands.runs()) {
         const BatchKey& key = s.batches.at(run.batch);
         s.surface[int(key.variant)][key.masked ? 1 : 0]->use();
@@ -98,13 +100,14 @@ void Geometry::drawSurfaces(const Context& context, const GBuffer& target) {
         setCulling(key);
         drawRun(s.commands, run);
     }
+    if (clipped) glDisable(GL_CLIP_DISTANCE0);
 }
 
 void Geometry::drawDepth(const Context& context, const NeededView& view) {
     State& s = *state_;
     const gl::PassScope pass(context.timer, view.purpose == NeededView::Purpose::sunShadow    ? "sun shadow"
                                             : view.purpose == NeededView::Purpose::spotShadow ? "spot shadow"
-                                                                                              : "depth view");
+                                                                                              : "light depth");
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, view.framebuffer);
     glViewport(0, 0, view.view.width, view.view.height);
     setRaster(true, false);
@@ -118,9 +121,16 @@ void Geometry::drawDepth(const Context& context, const NeededView& view) {
     s.depthViewBlock.write(makeViewBlock(view.view));
     s.depthViewBlock.bindUniform(SHOAL_BLOCK_VIEW);
     s.bindShared();
+    if (view.peel) {
+        gl::bindTexture(SHOAL_UNIT_PASS, view.peel);
+        glBindSampler(SHOAL_UNIT_PASS, 0);
+        glTextureBarrier();
+    }
     for (const DrawRun& run : s.commands.runs()) {
         const BatchKey& key = s.batches.at(run.batch);
-        s.depthOnly[key.masked ? 1 : 0]->use();
+        const gl::Program& program = *s.depthOnly[key.masked][bool(view.peel)];
+        program.use();
+        if (view.peel) program.set(0, Vec2{float(view.peelLayer), view.peelGap});
         (key.posed ? s.posedVertices[s.skinner.current()] : s.staticVertices).bind();
         if (key.material >= 0) s.materials.bind(key.material);
         setCulling(key);

@@ -46,7 +46,7 @@ struct Geometry::State {
 
     // Programs by variant (and masked, for the G-buffer).
     const gl::Program* surface[kSurfaceVariantCount][2] = {};
-    const gl::Program* depthOnly[2] = {};
+    const gl::Program* depthOnly[2][2] = {};  // masked, peeled
     const gl::Program* transparent[kSurfaceVariantCount] = {};
 
     std::vector<GpuModel> models;

@@ -121,6 +121,7 @@ LightBlock makeLightBlock(const Context& context, const LightingParams& params, 
         angleOfPixel / texelAngle, 0};
     block.occlusion = {params.ambientOcclusion ? 1.0f : 0.0f, params.occlusionStrength, 0, 0};
     block.lightCount = {float(lights.punctual.size()), 0, 0, 0};
+    block.medium = with(lights.medium.beamAttenuation, lights.medium.level);
     return block;
 }
 

@@ -20,12 +20,15 @@ constexpr std::size_t kFirstLights = 64;  // room made at creation; more lights 
 constexpr float kTexelsPerPixelOfSmooth = 0.75f;
 
 // What shade.frag is compiled for.
-enum Variant { kNoSun = 1, kNoLocalLights = 2, kSunIrradiance = 4, kTerms = 8 };
-constexpr int kShadeVariants = 16;
+enum Variant { kNoSun = 1, kNoLocalLights = 2, kSunOverride = 4, kTerms = 8, kEnvironmentOverride = 16 };
+constexpr int kShadeVariants = 32;
 
 Result<const gl::Program*> shadeProgram(gl::Device& device, int variant) {
-    const std::pair<Variant, const char*> names[] = {
-        {kNoSun, "NO_SUN"}, {kNoLocalLights, "NO_LOCAL_LIGHTS"}, {kSunIrradiance, "SUN_IRRADIANCE"}, {kTerms, "TERMS"}};
+    const std::pair<Variant, const char*> names[] = {{kNoSun, "NO_SUN"},
+                                                     {kNoLocalLights, "NO_LOCAL_LIGHTS"},
+                                                     {kSunOverride, "SUN_OVERRIDE"},
+                                                     {kTerms, "TERMS"},
+                                                     {kEnvironmentOverride, "ENVIRONMENT_OVERRIDE"}};
     std::vector<std::pair<std::string, std::string>> defines;
     for (const auto& [bit, name] : names)
         if (variant & bit) defines.emplace_back(name, "1");
@@ -179,10 +182,16 @@ void Lighting::shade(const Context& context, const LightingParams&, const Shadow
         gl::bindTexture(SHOAL_UNIT_PASS + i, inputs[i]);
         glBindSampler(GLuint(SHOAL_UNIT_PASS + i), 0);
     }
-    const bool own = bool(overrides.sunIrradiance) && !(s.variant & kNoSun);
-    if (own) {
+    int variant = s.variant;
+    if (overrides.sunIrradiance) {
         gl::bindTexture(SHOAL_UNIT_SUN_IRRADIANCE, overrides.sunIrradiance);
         glBindSampler(SHOAL_UNIT_SUN_IRRADIANCE, 0);
+        variant |= kSunOverride;
+    }
+    if (overrides.environmentIrradiance) {
+        gl::bindTexture(SHOAL_UNIT_ENVIRONMENT_IRRADIANCE, overrides.environmentIrradiance);
+        glBindSampler(SHOAL_UNIT_ENVIRONMENT_IRRADIANCE, 0);
+        variant |= kEnvironmentOverride;
     }
     if (s.termsWanted) s.resizeTerms(targets);
     const bool terms = s.termsWanted && bool(s.withTerms);
@@ -196,8 +205,7 @@ void Lighting::shade(const Context& context, const LightingParams&, const Shadow
         } else {
             targets.forward().bind();
         }
-        s.fullscreen.draw(s.shadeVariant(s.variant | (own ? kSunIrradiance : 0) | (terms ? kTerms : 0)),
-                          Where::surfaces);
+        s.fullscreen.draw(s.shadeVariant(variant | (terms ? kTerms : 0)), Where::surfaces);
     }
     const gl::PassScope pass(context.timer, "background");
     targets.forward().bind();

@@ -16,6 +16,7 @@ ViewBlock makeBlock(const light::View& view, const Mat4& clipFromView, const lig
     const float width = float(view.width), height = float(view.height);
     block.size = {width, height, 1 / width, 1 / height};
     block.depthRange = {view.nearZ, 0, 0, 0};
+    block.clipPlane = {0, 0, 0, 1};
     return block;
 }
 
@@ -27,6 +28,7 @@ ViewBlock makeViewBlock(const Context& context) {
     block.timing = {context.time, context.timeStep, float(context.frameIndex), float(context.sampleIndex)};
     block.depthRange.y = context.jitterPx.x;
     block.depthRange.z = context.jitterPx.y;
+    block.clipPlane = context.clipPlane;
     return block;
 }
 

@@ -154,8 +154,37 @@ TEST_F(FrameLighting, GivenIrradianceTakesTheSunsPlaceWhereItCovers) {
     const float expected = albedo / kPi * 3;
     EXPECT_NEAR(patch_->shaded({&sun, {}}, {.sunIrradiance = given}).x, expected, expected * kStored);
     given.clear(GL_RGBA, GL_FLOAT, open);
-    const float own = albedo / kPi * 8 * std::cos(0.5f);
-    EXPECT_NEAR(patch_->shaded({&sun, {}}, {.sunIrradiance = given}).x, own, own * kStored);
+    const float both = expected + albedo / kPi * 8 * std::cos(0.5f);
+    EXPECT_NEAR(patch_->shaded({&sun, {}}, {.sunIrradiance = given}).x, both, both * kStored);
+    const float alone = patch_->shaded({}, {.sunIrradiance = given}).x;
+    EXPECT_NEAR(alone, expected, expected * kStored);
+}
+
+TEST_F(FrameLighting, GivenEnvironmentIsAddedAndTakesItsPlaceWhereItCovers) {
+    const float albedo = test::storedBaseColor({0.6f, 0.6f, 0.6f}).x;
+    patch_->put({.baseColor = {albedo, albedo, albedo}, .viewDepth = 3});
+    patch_->setConstantEnvironment(2);
+    gl::Texture given =
+        gl::Texture::create(device(), {.format = GL_RGBA16F, .width = 16, .height = 16, .label = "given"});
+    const float around = patch_->shaded({}).x;  // of radiance 2
+    for (const float share : {0.0f, 0.5f, 1.0f}) {
+        const float texel[4] = {1, 1, 1, share};
+        given.clear(GL_RGBA, GL_FLOAT, texel);
+        const float expected = around * (1 - share) + around / 2;
+        EXPECT_NEAR(patch_->shaded({}, {.environmentIrradiance = given}).x, expected, expected * kStored) << share;
+    }
+}
+
+TEST_F(FrameLighting, AMediumDimsLampsInIt) {
+    const float albedo = test::storedBaseColor({0.6f, 0.6f, 0.6f}).x;
+    const float depth = 3;
+    patch_->put({.baseColor = {albedo, albedo, albedo}, .viewDepth = depth});
+    light::PunctualLight lamp;
+    lamp.position = {0, 0, -1};
+    Lights lights{nullptr, {&lamp, 1}};
+    const float dry = patch_->shaded(lights).x;
+    lights.medium = {.level = 100, .beamAttenuation = {0.4f, 0.4f, 0.4f}};
+    EXPECT_NEAR(patch_->shaded(lights).x, dry * std::exp(-0.4f * (depth - 1)), dry * kStored * 2);
 }
 
 TEST_F(FrameLighting, PrelitAndUnlitSurfacesKeepTheirRadiance) {

@@ -80,7 +80,8 @@ TEST_F(FrameBlocks, UniformBlocksOfShading) {
                         {"occlusion", offsetof(LightBlock, occlusion)},
                         {"origin", offsetof(LightBlock, origin)},
                         {"rayY", offsetof(LightBlock, rayY)},
-                        {"lightCount", offsetof(LightBlock, lightCount)}});
+                        {"lightCount", offsetof(LightBlock, lightCount)},
+                        {"medium", offsetof(LightBlock, medium)}});
     expectUniformBlock(program, "ShadowBlock", "ShadowBlock.", sizeof(ShadowBlock),
                        {{"sunFromWorld", offsetof(ShadowBlock, sunFromWorld)},
                         {"cascadePlace[0]", offsetof(ShadowBlock, cascadePlace)},

@@ -21,8 +21,10 @@ struct Context {
     Vec2 jitterPx;                    // this sample's offset from the pixel centre, x right, y up, [-0.5, 0.5]
     float time = 0;                   // seconds of scene time
     float timeStep = 0;               // seconds since the frame before, 0 in the first
-    std::uint32_t frameIndex = 0;     // counts frames; feeds every pseudo-random choice
-    std::uint32_t sampleIndex = 0;    // which sample of a supersampled frame
+    // World: only what has dot(clipPlane, (p, 1)) >= 0 is drawn into the G-buffer. (0, 0, 0, 1): all.
+    Vec4 clipPlane{0, 0, 0, 1};
+    std::uint32_t frameIndex = 0;   // counts frames; feeds every pseudo-random choice
+    std::uint32_t sampleIndex = 0;  // which sample of a supersampled frame
 };
 
 // What opaque surfaces leave behind. All textures have the view's size; rows bottom first as GL draws them.
@@ -56,6 +58,11 @@ struct NeededView {
     int layer = -1;                 // -1: a plain 2D texture
     std::uint32_t framebuffer = 0;  // depth attached, ready to draw
     bool unchanged = false;         // nothing in it changed since it was drawn last: may be skipped
+    // Depth peeling: where `peel` is given, only what lies more than peelGap (of depth, [0, 1]) behind it is drawn. May
+    // be another layer of the array that `depth` is a layer of.
+    gl::TextureView peel;
+    int peelLayer = 0;
+    float peelGap = 0;
 };
 
 // What a technique costs.

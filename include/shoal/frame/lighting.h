@@ -41,16 +41,28 @@ void visit(Params& p, Visitor&& v) {
     v(p.sunDisc, Field{"sunDisc", "", -1e30, 1e30, "draws the sun's disc into the environment behind everything"});
 }
 
+// Water, fog in a hollow: a medium that fills everything below a level. Lamps in it are dimmed on their way to surfaces
+// in it.
+struct Medium {
+    float level = -1e30f;  // world y
+    Vec3 beamAttenuation;  // 1/m
+};
+
 // What is lit by. Pointers may be null.
 struct Lights {
     const light::Sun* sun = nullptr;
     std::span<const light::PunctualLight> punctual;
+    Medium medium = {};
 };
 
-// Terms that a technique puts in place of the frame's own (light is counted once). Empty views: none.
+// Terms that a technique puts in place of the frame's own (light is counted once), RGBA16F of the picture's size. Empty
+// views: none. In both, rgb is added and a is the share of the frame's own that it takes the place of.
 struct LightOverrides {
-    gl::TextureView
-        sunIrradiance;  // RGBA16F: replaces the sun's direct irradiance on the surface's own plane where a > 0
+    // rgb: W/m2 on the surface's own plane, from no particular direction; a: of the sun and of lamps above
+    // Medium::level.
+    gl::TextureView sunIrradiance;
+    // rgb: W/m2 / pi on the surface's own plane; a: of the environment, its reflection included.
+    gl::TextureView environmentIrradiance;
 };
 
 class Lighting {

@@ -45,6 +45,7 @@ void main() {
     vec3 world = transformed(draw.worldFromModel, position);
     vec3 previousWorld = transformed(draw.previousFromModel, previousPosition);
     gl_Position = clipFromWorld * vec4(world, 1.0);
+    gl_ClipDistance[0] = dot(clipPlane, vec4(world, 1.0));
     vec4 steady = steadyClipFromWorld * vec4(world, 1.0);
     vec4 before = previousClipFromWorld * vec4(previousWorld, 1.0);
     vMotion = vec4(steady.xy, before.xy);

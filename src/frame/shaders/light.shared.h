@@ -48,6 +48,8 @@ SHOAL_LIGHT_BLOCK_BEGIN {
     vec4 backgroundRay, backgroundRayX, backgroundRayY;
     // x: local lights.
     vec4 lightCount;
+    // rgb: 1/m, how a medium dims lamps; w: world y that it fills the world up to.
+    vec4 medium;
 }
 #ifndef __cplusplus
 lightBlock

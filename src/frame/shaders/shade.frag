@@ -1,7 +1,7 @@
 #version 450 core
 // Shades the G-buffer's surfaces. Drawn with fullscreen.vert and depth test LESS.
-// Variants: NO_SUN, NO_LOCAL_LIGHTS (shading.lib.glsl); SUN_IRRADIANCE takes LightOverrides::sunIrradiance; TERMS
-// writes what the AOVs "direct" and "shadow" show.
+// Variants: NO_SUN, NO_LOCAL_LIGHTS (shading.lib.glsl); SUN_OVERRIDE and ENVIRONMENT_OVERRIDE take what LightOverrides
+// gives; TERMS writes what the AOVs "direct" and "shadow" show.
 #include "frame/shadow.io.glsl"
 #include "frame/shading.lib.glsl"
 #include "frame/gbuffer.lib.glsl"
@@ -11,8 +11,11 @@ layout(binding = SHOAL_UNIT_PASS + 1) uniform sampler2D normalTexture;
 layout(binding = SHOAL_UNIT_PASS + 2) uniform sampler2D materialTexture;
 layout(binding = SHOAL_UNIT_PASS + 3) uniform sampler2D emissionTexture;
 layout(binding = SHOAL_UNIT_PASS + 4) uniform sampler2D viewDepthTexture;
-#ifdef SUN_IRRADIANCE
+#ifdef SUN_OVERRIDE
 layout(binding = SHOAL_UNIT_SUN_IRRADIANCE) uniform sampler2D sunIrradianceTexture;
+#endif
+#ifdef ENVIRONMENT_OVERRIDE
+layout(binding = SHOAL_UNIT_ENVIRONMENT_IRRADIANCE) uniform sampler2D environmentIrradianceTexture;
 #endif
 
 layout(location = 0) out vec4 outRadiance;
@@ -35,12 +38,16 @@ void main() {
     s.metallic = material.y;
     s.f0 = decodeF0(material.z);
     s.occlusion = albedo.a;
-    vec4 sunOwn = vec4(0.0);
-#ifdef SUN_IRRADIANCE
+    vec4 sunOwn = vec4(0.0), environmentOwn = vec4(0.0);
+#ifdef SUN_OVERRIDE
     sunOwn = texelFetch(sunIrradianceTexture, at, 0);
 #endif
+#ifdef ENVIRONMENT_OVERRIDE
+    environmentOwn = texelFetch(environmentIrradianceTexture, at, 0);
+#endif
     float open = lightBlock.occlusion.x > 0.0 ? texelFetch(occlusionTexture, at, 0).x : 1.0;
-    ShadingTerms t = shadeTerms(s, toEyeOfPixel(gl_FragCoord.xy), viewDepth, gl_FragCoord.xy, open, sunOwn);
+    ShadingTerms t = shadeTerms(s, toEyeOfPixel(gl_FragCoord.xy), viewDepth, gl_FragCoord.xy, open, sunOwn,
+                                environmentOwn);
 
     // Prelit and unlit surfaces (kFlagPrelit, kFlagUnlit) arrive with their radiance.
     float lit = decodeFlags(material.w) == 0u ? 1.0 : 0.0;

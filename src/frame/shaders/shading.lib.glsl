@@ -93,20 +93,24 @@ vec3 prefilteredRadiance(vec3 direction, float level) {
 }
 
 // Radiance by the environment; ambientOcclusion: screen space times material, 1 open.
-vec3 environmentTerm(Lobes l, vec3 baseColor, float ambientOcclusion) {
-    vec3 diffuse = l.diffuse * environmentIrradianceOverPi(l.normal) * interreflection(ambientOcclusion, baseColor);
+// own: LightOverrides::environmentIrradiance.
+vec3 environmentTerm(Lobes l, vec3 baseColor, float ambientOcclusion, vec4 own) {
+    vec3 irradiance = environmentIrradianceOverPi(l.normal) * (1.0 - own.a) + own.rgb;
+    vec3 diffuse = l.diffuse * irradiance * interreflection(ambientOcclusion, baseColor);
     // The lobe leans from the mirror direction to the normal as it widens [Lagarde & de Rousiers 2014, listing 23].
     vec3 mirrored = reflect(-l.toEye, l.normal);
     float lean = (1.0 - l.alpha) * (sqrt(1.0 - l.alpha) + l.alpha);
     vec3 direction = mix(l.normal, mirrored, lean);
     float level = levelOfRoughness(l.roughness, lightBlock.environment.y);
-    vec3 around = prefilteredRadiance(direction, level) * lightBlock.environment.x;
+    vec3 around = prefilteredRadiance(direction, level) * (lightBlock.environment.x * (1.0 - own.a)) + own.rgb;
     float open = specularOcclusion(l.nDotV, ambientOcclusion, l.roughness);
     return diffuse + around * l.specular * open;
 }
 
-vec3 localLightTerm(Lobes l, vec3 position, vec3 shadowNormal) {
+// replaced: share of the lamps above the medium's level that a technique takes the place of.
+vec3 localLightTerm(Lobes l, vec3 position, vec3 shadowNormal, float replaced) {
     vec3 sum = vec3(0.0);
+    float depth = lightBlock.medium.w - position.y;
     int count = int(lightBlock.lightCount.x);
     for (int i = 0; i < count; ++i) {
         LocalLight light = localLights[i];
@@ -117,19 +121,26 @@ vec3 localLightTerm(Lobes l, vec3 position, vec3 shadowNormal) {
         float cosAxis = -dot(light.direction.xyz, toLight);
         float reach = rangeWindow(away, light.position.w) * spotCone(cosAxis, light.cone.x, light.cone.y);
         if (nDotL <= 0.0 || reach <= 0.0) continue;
+        float lampDepth = lightBlock.medium.w - light.position.y;
+        reach *= lampDepth < 0.0 ? 1.0 - replaced : 1.0;
+        // Metres of the way in the medium.
+        float wet = away * (max(depth, 0.0) + max(lampDepth, 0.0)) /
+                    max(abs(depth) + abs(lampDepth), 1e-6);
         float nearest = max(away, light.direction.w);
         float visible = light.intensity.w < 0.0 ? 1.0 : spotVisibility(int(light.intensity.w), position, shadowNormal);
-        vec3 irradiance = light.intensity.rgb * (reach * visible * nDotL / (nearest * nearest));
+        vec3 irradiance = light.intensity.rgb * exp(-lightBlock.medium.rgb * wet) *
+                          (reach * visible * nDotL / (nearest * nearest));
         sum += irradiance * reflectance(l, toLight, nDotL, 0.5 * light.direction.w / nearest);
     }
     return sum;
 }
 
-// sunOwn: irradiance on the surface's own plane that takes the place of the sun's where its a > 0.
-ShadingTerms shadeTerms(Surface s, vec3 toEye, float viewDepth, vec2 pixel, float ambientOcclusion, vec4 sunOwn) {
+// sunOwn, environmentOwn: of LightOverrides.
+ShadingTerms shadeTerms(Surface s, vec3 toEye, float viewDepth, vec2 pixel, float ambientOcclusion, vec4 sunOwn,
+                        vec4 environmentOwn) {
     Lobes l = lobesOf(s, toEye);
     ShadingTerms t;
-    t.sun = vec3(0.0);
+    t.sun = sunOwn.rgb * (l.diffuse + l.specular) * kInversePi;
     t.sunVisible = 1.0;
 #ifndef NO_SUN
     if (lightBlock.toSun.w > 0.0) {
@@ -137,23 +148,23 @@ ShadingTerms shadeTerms(Surface s, vec3 toEye, float viewDepth, vec2 pixel, floa
         bool shadowed = lightBlock.sunDisc.w > 0.0;
         t.sunVisible = shadowed ? sunVisibility(s.position, s.normal, viewDepth, pixel) : 1.0;
         if (nDotL <= 0.0) t.sunVisible = 0.0;
-        vec3 irradiance = sunOwn.a > 0.0 ? sunOwn.rgb : lightBlock.sunIrradiance.rgb * (nDotL * t.sunVisible);
-        t.sun = irradiance * reflectance(l, lightBlock.toSun.xyz, max(nDotL, 0.05), lightBlock.sunIrradiance.w);
+        vec3 irradiance = lightBlock.sunIrradiance.rgb * (nDotL * t.sunVisible * (1.0 - sunOwn.a));
+        t.sun += irradiance * reflectance(l, lightBlock.toSun.xyz, max(nDotL, 0.05), lightBlock.sunIrradiance.w);
     }
 #endif
 #ifdef NO_LOCAL_LIGHTS
     t.local = vec3(0.0);
 #else
-    t.local = localLightTerm(l, s.position, s.normal);
+    t.local = localLightTerm(l, s.position, s.normal, sunOwn.a);
 #endif
-    t.environment = environmentTerm(l, s.baseColor, ambientOcclusion * s.occlusion);
+    t.environment = environmentTerm(l, s.baseColor, ambientOcclusion * s.occlusion, environmentOwn);
     return t;
 }
 
 // Radiance to the eye, W/(m2 sr). toEye unit; viewDepth m; pixel: gl_FragCoord.xy; ambientOcclusion in screen space, 1
 // open.
 vec3 shadeSurface(Surface s, vec3 toEye, float viewDepth, vec2 pixel, float ambientOcclusion) {
-    ShadingTerms t = shadeTerms(s, toEye, viewDepth, pixel, ambientOcclusion, vec4(0.0));
+    ShadingTerms t = shadeTerms(s, toEye, viewDepth, pixel, ambientOcclusion, vec4(0.0), vec4(0.0));
     return t.sun + t.local + t.environment;
 }
 

@@ -27,6 +27,7 @@ SHOAL_VIEW_BLOCK_BEGIN {
     vec4 size;                   // width, height, 1 / width, 1 / height (pixels)
     vec4 timing;                 // time s, time step s, frame index, sample index
     vec4 depthRange;             // near m, jitter x px, jitter y px, unused
+    vec4 clipPlane;              // Context::clipPlane
 }
 SHOAL_VIEW_BLOCK_END
 
