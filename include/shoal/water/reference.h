@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include <shoal/core/image.h>
 #include <shoal/core/model.h>
@@ -47,5 +48,68 @@ struct FloorResult {
 };
 FloorResult traceFloor(const WaveField& waves, double index, double attenuation, Vec3 toSun, double discHalfAngle,
                        double depth, const FloorBins& bins, int raysPerSide, std::uint32_t seed);
+
+// Closed forms (no sampling), which both the reference and the GPU are tested against. Metres, radians, 1/m; light of
+// irradiance 1 on a plane facing it. Sources: Snell, Fresnel, and the change of variables from where a ray enters to
+// where it lands; no paraxial approximation.
+namespace analytic {
+
+// Level water: irradiance at `depth` on a level floor, light at `zenithAngle` in the air (relative to E_perp: divide by
+// its cosine for E / E0).
+double flatIrradiance(double index, double attenuation, double zenithAngle, double depth);
+
+// h(x) = amplitude cos(k x), light in the x-y plane travelling towards +x (zenithAngle 0: straight down). Waves must
+// not shade each other: tan(pi / 2 - zenithAngle) > amplitude k. Defaults: amplitude .05 m, wavelength 2 m, index 1.333.
+struct Sinusoid {
+    double amplitude = 0.05, k = kPiD;
+    double index = kWaterIndex;
+    double attenuation = 0;  // c of the beam
+    double zenithAngle = 0;
+};
+// The ray that enters at x, at the plane `depth` below the level.
+struct SinusoidRay {
+    double landing = 0;                     // X(x)
+    double jacobian = 0;                    // dX/dx; its zeros are the folds
+    double length = 0;                      // metres in the water
+    double flux = 0;                        // what gets through a metre of x: incidence times Fresnel, not dimmed
+    double directionX = 0, directionY = 0;  // in the water, unit, y below 0
+};
+SinusoidRay sinusoidRay(const Sinusoid& s, double depth, double x);
+// All rays that land at X: one before the first focus, then odd numbers.
+std::vector<SinusoidRay> sinusoidBranches(const Sinusoid& s, double depth, double landing);
+// Irradiance on a level plane at a point: the sum over branches of flux exp(-c l) / |dX/dx|. Infinite on a fold.
+double sinusoidIrradiance(const Sinusoid& s, double depth, double landing);
+// Its mean over each of `count` equal bins of [min, max]: exact, folds included (each bin's preimages are intervals in
+// x, where flux exp(-c l) is smooth).
+std::vector<double> sinusoidBins(const Sinusoid& s, double depth, double min, double max, int count);
+// Depth below the level where light first crosses under a crest (zenith light): n / ((n - 1) A k^2) - A.
+double focusDepth(const Sinusoid& s);
+// Landing points of all folds of one period of x, [0, 2 pi / k), reduced to (-pi / k, pi / k], ascending; empty before
+// the focus.
+std::vector<double> sinusoidFolds(const Sinusoid& s, double depth);
+
+// 1/sr, [Henyey and Greenstein 1941]; cosTheta 1: straight on.
+double henyeyGreenstein(double anisotropy, double cosTheta);
+
+// What a shaft is made of: beam attenuation c, scattering b (1/m), Henyey-Greenstein g.
+struct ShaftMedium {
+    double attenuation = 0.13, scattering = 0.08, anisotropy = 0.924;
+    double index = kWaterIndex;
+};
+// A straight view ray in the water: from depth `eyeDepth` at x `eyeX`, unit direction v (y up), `length` metres.
+struct ShaftRay {
+    double eyeDepth = 2, eyeX = 0;
+    double vx = 1, vy = 0, vz = 0;
+    double length = 10;
+};
+// Single scattering into the view ray, radiance for E_perp = 1, level water, light at zenithAngle travelling towards +x.
+double flatShaft(const ShaftMedium& medium, double zenithAngle, const ShaftRay& ray);
+// The same under a sinusoid (its attenuation and index are replaced by the medium's): midpoint rule with `steps` points
+// over the exact field at every depth. footprint: metres in x that the field is averaged over, exactly; needed past the
+// first focus, where the point value is singular. 0: the point value.
+double sinusoidShaft(const ShaftMedium& medium, const Sinusoid& s, const ShaftRay& ray, int steps,
+                     double footprint = 0);
+
+}  // namespace analytic
 
 }  // namespace shoal::water
