@@ -152,11 +152,11 @@ TEST_F(FrameLighting, GivenIrradianceTakesTheSunsPlaceWhereItCovers) {
     const float covered[4] = {3, 3, 3, 1}, open[4] = {3, 3, 3, 0};
     given.clear(GL_RGBA, GL_FLOAT, covered);
     const float expected = albedo / kPi * 3;
-    EXPECT_NEAR(patch_->shaded({&sun, {}}, {.sunIrradiance = given}).x, expected, expected * kStored);
+    EXPECT_NEAR(patch_->shaded({&sun, {}}, {given, {}}).x, expected, expected * kStored);
     given.clear(GL_RGBA, GL_FLOAT, open);
     const float both = expected + albedo / kPi * 8 * std::cos(0.5f);
-    EXPECT_NEAR(patch_->shaded({&sun, {}}, {.sunIrradiance = given}).x, both, both * kStored);
-    const float alone = patch_->shaded({}, {.sunIrradiance = given}).x;
+    EXPECT_NEAR(patch_->shaded({&sun, {}}, {given, {}}).x, both, both * kStored);
+    const float alone = patch_->shaded({}, {given, {}}).x;
     EXPECT_NEAR(alone, expected, expected * kStored);
 }
 
@@ -171,7 +171,7 @@ TEST_F(FrameLighting, GivenEnvironmentIsAddedAndTakesItsPlaceWhereItCovers) {
         const float texel[4] = {1, 1, 1, share};
         given.clear(GL_RGBA, GL_FLOAT, texel);
         const float expected = around * (1 - share) + around / 2;
-        EXPECT_NEAR(patch_->shaded({}, {.environmentIrradiance = given}).x, expected, expected * kStored) << share;
+        EXPECT_NEAR(patch_->shaded({}, {{}, given}).x, expected, expected * kStored) << share;
     }
 }
 
