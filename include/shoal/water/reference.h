@@ -59,7 +59,8 @@ namespace analytic {
 double flatIrradiance(double index, double attenuation, double zenithAngle, double depth);
 
 // h(x) = amplitude cos(k x), light in the x-y plane travelling towards +x (zenithAngle 0: straight down). Waves must
-// not shade each other: tan(pi / 2 - zenithAngle) > amplitude k. Defaults: amplitude .05 m, wavelength 2 m, index 1.333.
+// not shade each other: tan(pi / 2 - zenithAngle) > amplitude k. Defaults: amplitude .05 m, wavelength 2 m, index
+// 1.333.
 struct Sinusoid {
     double amplitude = 0.05, k = kPiD;
     double index = kWaterIndex;
@@ -102,7 +103,8 @@ struct ShaftRay {
     double vx = 1, vy = 0, vz = 0;
     double length = 10;
 };
-// Single scattering into the view ray, radiance for E_perp = 1, level water, light at zenithAngle travelling towards +x.
+// Single scattering into the view ray, radiance for E_perp = 1, level water, light at zenithAngle travelling towards
+// +x.
 double flatShaft(const ShaftMedium& medium, double zenithAngle, const ShaftRay& ray);
 // The same under a sinusoid (its attenuation and index are replaced by the medium's): midpoint rule with `steps` points
 // over the exact field at every depth. footprint: metres in x that the field is averaged over, exactly; needed past the
