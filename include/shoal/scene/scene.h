@@ -299,12 +299,21 @@ Result<Scene> sceneForModel(const std::filesystem::path& modelFile, std::span<co
 // loadScene for .toml, sceneForModel for anything io::readModel takes; an error that lists both for any other.
 Result<Scene> openScene(const std::filesystem::path& file, std::span<const Override> overrides = {});
 
-// Binds a raw table to a technique's parameters; unknown keys are errors that name the nearest known. `nested` names
-// are allowed to be missing here (bound elsewhere).
-template <class Params>
-Result<void> bindTable(const RawTable& table, Params& params) {
+// Binds a raw table to a technique's parameters; unknown keys are errors that name the nearest known. Several structs
+// may share a table: each key goes to the one that has it.
+template <class... Params>
+Result<void> bindTable(const RawTable& table, Params&... params) {
+    std::vector<std::string> known;
+    (visit(params, [&](auto&, const Field& field) { known.push_back(field.name); }), ...);
     for (const RawEntry& entry : table.entries) {
-        if (auto set = setField(params, entry.key, entry.value); !set)
+        Result<void> set = badInput(unknownWord("key", entry.key, known));
+        const auto tryOne = [&](auto& one) {
+            bool has = false;
+            visit(one, [&](auto&, const Field& field) { has = has || entry.key == field.name; });
+            if (has) set = setField(one, entry.key, entry.value);
+        };
+        (tryOne(params), ...);
+        if (!set)
             return Error{entry.place.line > 0 ? ErrorKind::badInput : ErrorKind::usage,
                          entry.place.describe() + ": " + table.name + "." + set.error().message};
     }
