@@ -11,6 +11,7 @@ find_package(PNG REQUIRED)
 find_package(libjpeg-turbo REQUIRED)
 find_package(assimp REQUIRED)
 find_package(nlohmann_json REQUIRED)
+find_package(embree 3 REQUIRED)
 find_package(epoxy REQUIRED)
 find_package(glfw3 3.3 REQUIRED)
 

@@ -24,6 +24,7 @@ find_dependency(OpenEXR 3.1)
 find_dependency(ZLIB)
 find_dependency(PNG)
 find_dependency(libjpeg-turbo)
+find_dependency(embree 3)
 include("${CMAKE_CURRENT_LIST_DIR}/shoalCpuTargets.cmake")
 
 if(shoal_gl_FOUND)
