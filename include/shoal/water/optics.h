@@ -61,6 +61,7 @@ struct Optics {
     float anisotropy = 0;                  // g' of the scattering that is not in the beam
     float ffIndex = 1.1f, ffSlope = 3.5f;  // Fournier-Forand n and mu
     float ffScale = 1;                     // makes the function integrate to 1
+    float ffPeak = 0;  // Fournier-Forand without its beam: held below this sin^2 of half the angle [Potter 1970]
     Vec3 beamAttenuation() const { return absorption + scattering * (1 - forwardFraction); }
     Vec3 beamScattering() const { return scattering * (1 - forwardFraction); }
 };
@@ -70,6 +71,13 @@ Result<Optics> resolveOptics(const OpticsParams& params);
 // 1/sr, integrates to 1 over the sphere; cosTheta between the directions before and after (1: straight on). The same
 // function as optics.lib.glsl's waterPhase.
 float phaseFunction(const Optics& optics, float cosTheta);
+// What waterPhase of optics.lib.glsl takes: (0, g', 0, 1) or (1 + ffPeak, ffIndex, ffSlope, ffScale).
+Vec4 phaseVector(const Optics& optics);
+
+// Kd of light whose directions just below the surface have the mean cosine `cosBelow` in (0, 1] to the vertical:
+// optics.diffuseAttenuation is that of light from straight above. Grows as 1 / cosBelow for b = 0, where the light
+// that is left is the beam itself, and less where light is scattered [Kirk 1984].
+Vec3 diffuseAttenuationAt(const Optics& optics, double cosBelow);
 
 // A row of the table that resolveOptics reads.
 struct NamedMedium {

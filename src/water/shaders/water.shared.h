@@ -17,7 +17,8 @@ SHOAL_WATER_BLOCK_BEGIN {
     vec4 area;                // least x, z and greatest x, z of the water
     vec4 beamAttenuation;     // 1/m: Optics::beamAttenuation(); w: the least of the three
     vec4 beamScattering;      // 1/m: Optics::beamScattering()
-    vec4 diffuseAttenuation;  // 1/m: Kd
+    vec4 diffuseAttenuation;  // 1/m: Kd of light from above and from the sky
+    vec4 sunDiffuseAttenuation;  // 1/m: Kd of the sun's light at its angle (diffuseAttenuationAt)
     vec4 scattering;          // 1/m: all of it, b
     vec4 phase;               // of optics.lib.glsl's waterPhase
     vec4 toSun;               // unit, world; w: 1 where there is a sun

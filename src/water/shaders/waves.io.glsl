@@ -5,7 +5,7 @@
 
 #include "water/waves.shared.h"
 
-// Two layers a tile: (h, hx, hz, 0) and (hxx, hxz, hzz, 0); repeats, with mips.
+// Two layers a tile: (h, hx, hz, hx^2 + hz^2) and (hxx, hxz, hzz, 0); repeats, with mips.
 layout(binding = SHOAL_UNIT_WAVE_TILES) uniform sampler2DArray waveTiles;
 
 struct Wave {
@@ -14,13 +14,34 @@ struct Wave {
     vec3 curvature;   // hxx, hxz, hzz, 1/m
 };
 
+// What is left of the waves where a pixel covers many of them.
+struct FilteredWave {
+    float h;                // metres, mean
+    vec2 slope;             // mean
+    float slopeVariance;    // of the slopes left out: mean of |slope - mean|^2, both axes together
+};
+
+// Angle of plane wave i without whole turns.
+float wavePlaneAngle(vec2 xz, int i) {
+    vec4 turns = waveBlock.planeTurns[i];
+    vec2 whole = floor(xz), part = xz - whole, exact = turns.xy * whole;
+    float t = dot(exact - floor(exact), vec2(1.0)) + dot(turns.zw, whole) + dot(turns.xy + turns.zw, part);
+    return 6.283185307 * (t - floor(t)) + waveBlock.planes[i].w;
+}
+
+// Texel coordinates in a tile: whole ones below 0 or above the size are to be wrapped.
+void waveTexelAt(vec2 xz, int tile, out ivec2 corner, out vec2 part) {
+    vec4 t = waveBlock.tiles[tile];
+    vec2 metres = floor(xz), exact = t.x * metres, below = floor(exact);
+    vec2 rest = (exact - below) + t.y * metres + (t.x + t.y) * (xz - metres), restBelow = floor(rest);
+    corner = ivec2(below) + ivec2(restBelow);
+    part = rest - restBelow;
+}
+
 // Bilinear with exact weights: a sampler's have 8 bits.
-vec4 waveTexel(vec2 xz, int tile, int layer) {
-    int size = int(waveBlock.counts.z);
-    vec2 at = xz * waveBlock.tiles[tile].x * float(size);
-    vec2 corner = floor(at), f = at - corner;
-    ivec2 a = ivec2(corner) & (size - 1), b = (a + 1) & (size - 1);
-    int slice = 2 * tile + layer;
+vec4 waveTexel(ivec2 corner, vec2 f, int slice) {
+    int mask = int(waveBlock.counts.z) - 1;
+    ivec2 a = corner & mask, b = (corner + 1) & mask;
     vec4 low = mix(texelFetch(waveTiles, ivec3(a, slice), 0), texelFetch(waveTiles, ivec3(b.x, a.y, slice), 0), f.x);
     vec4 high = mix(texelFetch(waveTiles, ivec3(a.x, b.y, slice), 0), texelFetch(waveTiles, ivec3(b, slice), 0), f.x);
     return mix(low, high, f.y);
@@ -31,30 +52,32 @@ Wave waveAt(vec2 xz) {
     int planeCount = int(waveBlock.counts.x), tileCount = int(waveBlock.counts.y);
     for (int i = 0; i < planeCount; ++i) {
         vec4 p = waveBlock.planes[i];
-        float angle = p.y * xz.x + p.z * xz.y + p.w;
+        float angle = wavePlaneAngle(xz, i);
         float c = p.x * cos(angle), s = -p.x * sin(angle);
         w.h += c;
         w.slope += s * p.yz;
         w.curvature -= c * vec3(p.y * p.y, p.y * p.z, p.z * p.z);
     }
     if (waveBlock.circular.x != 0.0) {
-        // a cos(k r + phase): derivatives along and across the radius.
+        // a cos(k rho + phase), rho^2 = r^2 + 1 / k^2: derivatives along and across the radius.
+        float k = waveBlock.circular.y;
         vec2 away = xz - waveBlock.center.xy;
-        float r = max(length(away), 1e-4), k = waveBlock.circular.y;
-        vec2 e = away / r;
-        float angle = k * r + waveBlock.circular.z;
-        float first = -waveBlock.circular.x * k * sin(angle), second = -waveBlock.circular.x * k * k * cos(angle);
-        w.h += waveBlock.circular.x * cos(angle);
+        float rho = sqrt(dot(away, away) + 1.0 / (k * k)), angle = k * rho + waveBlock.circular.z;
+        vec2 e = away / rho;
+        float c = waveBlock.circular.x * cos(angle), first = -waveBlock.circular.x * k * sin(angle);
+        float across = first / rho, along = -k * k * c - across;
+        w.h += c;
         w.slope += first * e;
-        float across = first / r;
-        w.curvature += vec3(second * e.x * e.x + across * e.y * e.y, (second - across) * e.x * e.y,
-                            second * e.y * e.y + across * e.x * e.x);
+        w.curvature += vec3(along * e.x * e.x + across, along * e.x * e.y, along * e.y * e.y + across);
     }
     for (int i = 0; i < tileCount; ++i) {
-        vec4 t = waveTexel(xz, i, 0);
+        ivec2 corner;
+        vec2 f;
+        waveTexelAt(xz, i, corner, f);
+        vec4 t = waveTexel(corner, f, 2 * i);
         w.h += t.x;
         w.slope += t.yz;
-        w.curvature += waveTexel(xz, i, 1).xyz;
+        w.curvature += waveTexel(corner, f, 2 * i + 1).xyz;
     }
     return w;
 }
@@ -65,16 +88,77 @@ vec3 waveSlopeAt(vec2 xz) {
     int planeCount = int(waveBlock.counts.x), tileCount = int(waveBlock.counts.y);
     for (int i = 0; i < planeCount; ++i) {
         vec4 p = waveBlock.planes[i];
-        float angle = p.y * xz.x + p.z * xz.y + p.w;
+        float angle = wavePlaneAngle(xz, i);
         w += p.x * vec3(cos(angle), -sin(angle) * p.yz);
     }
     if (waveBlock.circular.x != 0.0) {
+        float k = waveBlock.circular.y;
         vec2 away = xz - waveBlock.center.xy;
-        float r = max(length(away), 1e-4), angle = waveBlock.circular.y * r + waveBlock.circular.z;
-        w += waveBlock.circular.x * vec3(cos(angle), -sin(angle) * waveBlock.circular.y * away / r);
+        float rho = sqrt(dot(away, away) + 1.0 / (k * k)), angle = k * rho + waveBlock.circular.z;
+        w += waveBlock.circular.x * vec3(cos(angle), -sin(angle) * k * away / rho);
     }
-    for (int i = 0; i < tileCount; ++i) w += waveTexel(xz, i, 0).xyz;
+    for (int i = 0; i < tileCount; ++i) {
+        ivec2 corner;
+        vec2 f;
+        waveTexelAt(xz, i, corner, f);
+        w += waveTexel(corner, f, 2 * i).xyz;
+    }
     return w;
+}
+
+// Height alone: what a search along a ray asks for.
+float waveHeightAt(vec2 xz) {
+    float h = 0.0;
+    int planeCount = int(waveBlock.counts.x), tileCount = int(waveBlock.counts.y);
+    for (int i = 0; i < planeCount; ++i) h += waveBlock.planes[i].x * cos(wavePlaneAngle(xz, i));
+    if (waveBlock.circular.x != 0.0) {
+        float k = waveBlock.circular.y;
+        vec2 away = xz - waveBlock.center.xy;
+        h += waveBlock.circular.x * cos(k * sqrt(dot(away, away) + 1.0 / (k * k)) + waveBlock.circular.z);
+    }
+    for (int i = 0; i < tileCount; ++i) {
+        ivec2 corner;
+        vec2 f;
+        waveTexelAt(xz, i, corner, f);
+        h += waveTexel(corner, f, 2 * i).x;
+    }
+    return h;
+}
+
+// A plane wave of amplitude a seen through a footprint: a square's mean has the variance footprint^2 / 12 an axis, and
+// a bell of that variance is what waves are weighted with.
+float waveFade(float k, float footprintM) { return exp(-k * k * footprintM * footprintM / 24.0); }
+
+// Mean height and slopes over a square of footprintM metres round the point, and how much the slopes vary within.
+FilteredWave waveSlopeFiltered(vec2 xz, float footprintM) {
+    vec3 w = vec3(0.0);
+    float variance = 0.0;
+    int planeCount = int(waveBlock.counts.x), tileCount = int(waveBlock.counts.y);
+    for (int i = 0; i < planeCount; ++i) {
+        vec4 p = waveBlock.planes[i];
+        float angle = wavePlaneAngle(xz, i), k2 = dot(p.yz, p.yz), fade = waveFade(sqrt(k2), footprintM);
+        w += fade * p.x * vec3(cos(angle), -sin(angle) * p.yz);
+        variance += 0.5 * (1.0 - fade * fade) * p.x * p.x * k2;
+    }
+    if (waveBlock.circular.x != 0.0) {
+        float k = waveBlock.circular.y, a = waveBlock.circular.x, fade = waveFade(k, footprintM);
+        vec2 away = xz - waveBlock.center.xy;
+        float rho = sqrt(dot(away, away) + 1.0 / (k * k)), angle = k * rho + waveBlock.circular.z;
+        w += fade * a * vec3(cos(angle), -sin(angle) * k * away / rho);
+        variance += 0.5 * (1.0 - fade * fade) * a * a * k * k;
+    }
+    for (int i = 0; i < tileCount; ++i) {
+        ivec2 corner;
+        vec2 f;
+        waveTexelAt(xz, i, corner, f);
+        float size = waveBlock.counts.z, level = log2(max(footprintM / waveBlock.tiles[i].z, 1.0));
+        // Texel (0, 0) stands at the origin; a sampler puts its middle at half a texel.
+        vec2 uv = (vec2(corner & (int(size) - 1)) + f + 0.5) / size;
+        vec4 t = textureLod(waveTiles, vec3(uv, float(2 * i)), level);
+        w += t.xyz;
+        variance += max(t.w - dot(t.yz, t.yz), 0.0);
+    }
+    return FilteredWave(w.x, w.yz, variance);
 }
 
 #endif

@@ -15,13 +15,16 @@ using vec4 = Vec4;
 #define SHOAL_WAVE_BLOCK_BEGIN layout(std140, binding = SHOAL_BLOCK_WAVES) uniform WaveBlock
 #endif
 
+// Numbers a metre come in two parts, the first of 12 bits: its product with a whole number of metres up to 4096 is
+// exact, and so far from the origin nothing is lost by 32-bit arithmetic.
 SHOAL_WAVE_BLOCK_BEGIN {
-    vec4 counts;                         // x: plane waves, y: tiles, z: texels a side of a tile
-    vec4 bounds;                         // WaveBounds: height m, slope, shortest wavelength m
-    vec4 circular;                       // amplitude m (0: none), k 1/m, phase, unused
-    vec4 center;                         // x, z of the circular wave
-    vec4 planes[SHOAL_MAX_PLANE_WAVES];  // amplitude m, kx, kz, phase
-    vec4 tiles[SHOAL_MAX_WAVE_TILES];    // 1 / period, period m
+    vec4 counts;                              // x: plane waves, y: tiles, z: texels a side of a tile, w: mip levels
+    vec4 bounds;                              // WaveBounds: height m, slope, shortest wavelength m
+    vec4 circular;                            // amplitude m (0: none), k 1/m, phase, unused
+    vec4 center;                              // x, z of the circular wave
+    vec4 planes[SHOAL_MAX_PLANE_WAVES];       // amplitude m, kx, kz, phase
+    vec4 planeTurns[SHOAL_MAX_PLANE_WAVES];   // kx, kz over 2 pi: first parts, second parts
+    vec4 tiles[SHOAL_MAX_WAVE_TILES];         // texels a metre: first part, second part; metres a texel; period m
 }
 #ifndef __cplusplus
 waveBlock
