@@ -16,7 +16,12 @@
 namespace shoal::bench {
 
 const std::vector<Benchmark>& benchmarks() {
-    static const std::vector<Benchmark> all = frameBenchmarks();
+    static const std::vector<Benchmark> all = [] {
+        std::vector<Benchmark> every;
+        for (const auto& some : {frameBenchmarks(), waterTruthBenchmarks()})
+            every.insert(every.end(), some.begin(), some.end());
+        return every;
+    }();
     return all;
 }
 

@@ -13,6 +13,7 @@
 #include <shoal/frame/targets.h>
 
 #include "pipeline/aov.h"
+#include "pipeline/water_pass.h"
 
 namespace shoal::pipeline {
 
@@ -33,20 +34,28 @@ struct Loaded {
     std::optional<frame::Shadows> shadows;
     std::vector<frame::InstanceId> instances;  // one a content instance
     bool moves = false;                        // whether any instance walks
+    std::unique_ptr<WaterPass> water;          // null: none
 };
 
 // The tables of techniques that this version does not draw yet.
 Result<void> refuseUnbuilt(const scene::Scene& scene) {
     for (const scene::RawTable& table : scene.tables) {
         const std::string root = table.name.substr(0, table.name.find('.'));
-        if (root == "water" || root == "crowd" || root == "fluid" || root == "volume")
+        if (root == "crowd" || root == "fluid" || root == "volume")
             return badInput(table.place.describe() + ": [" + table.name + "]: this version of shoal has no " + root +
                             " yet");
-        if (root != table.name)
+        if (root != table.name && root != "water")
             return badInput(table.place.describe() + ": [" + table.name +
                             "]: unknown table, expected plain values in [" + root + "]");
     }
     return {};
+}
+
+// The water's own checks know fields, not lines.
+Error atWater(const scene::Scene& scene, const Error& error) {
+    const scene::RawTable* table = scene.table("water");
+    if (error.kind != ErrorKind::badInput || !table) return error;
+    return {error.kind, table->place.describe() + ": water: " + error.message};
 }
 
 template <class Params>
@@ -134,6 +143,7 @@ struct Pipeline::State {
     void drawNeededViews(const frame::Context& context);
     void drawSample(const frame::Context& context);
     frame::Lights lights() const;
+    WaterScene waterScene();
     bool wantsTerms() const;
 };
 
@@ -187,12 +197,20 @@ void Pipeline::State::drawNeededViews(const frame::Context& context) {
 }
 
 frame::Lights Pipeline::State::lights() const {
-    return {loaded->content.sun ? &*loaded->content.sun : nullptr, loaded->content.lights};
+    frame::Lights lights{loaded->content.sun ? &*loaded->content.sun : nullptr, loaded->content.lights};
+    if (loaded->water) lights.medium = loaded->water->medium();
+    return lights;
+}
+
+WaterScene Pipeline::State::waterScene() {
+    return {*loaded->geometry, lighting, *loaded->shadows, loaded->lightingParams, lights()};
 }
 
 bool Pipeline::State::wantsTerms() const {
     for (const std::string& name : aovNames)
-        if (name == "direct" || name == "shadow" || name == "occlusion") return true;
+        if (name == "direct" || name == "shadow" || name == "occlusion" || name == "transmittance" ||
+            name == "waterDepth")
+            return true;
     return false;
 }
 
@@ -201,8 +219,11 @@ void Pipeline::State::drawSample(const frame::Context& context) {
     targets->beginSurfaces();
     geometry.drawSurfaces(context, targets->gbuffer());
     targets->finishSurfaces(context);
+    frame::LightOverrides overrides;
+    if (loaded->water) overrides = loaded->water->light(context, waterScene(), *targets);
     lighting.prepare(context, loaded->lightingParams, lights(), *targets);
-    lighting.shade(context, loaded->lightingParams, *loaded->shadows, {}, *targets);
+    lighting.shade(context, loaded->lightingParams, *loaded->shadows, overrides, *targets);
+    if (loaded->water) loaded->water->draw(context, waterScene(), *targets);
     if (!geometry.hasTransparent()) return;
     {
         gl::PassScope pass(&timer, "copy opaque");
@@ -239,6 +260,13 @@ Result<void> Pipeline::setScene(const scene::Scene& scene, scene::Content conten
     SHOAL_TRY_ASSIGN(loaded->geometry, frame::Geometry::create(state_->device));
     SHOAL_TRY_ASSIGN(loaded->shadows, frame::Shadows::create(state_->device, loaded->shadowSetup));
     SHOAL_TRY(addInstances(*loaded));
+    SHOAL_TRY_ASSIGN(std::optional<WaterSpec> water, readWater(scene));
+    if (water) {
+        const Vec3 sky = skyIrradiance(loaded->content, loaded->lightingParams.environmentIntensity);
+        auto made = WaterPass::create(state_->device, std::move(*water), sky);
+        if (!made) return atWater(scene, made.error());
+        loaded->water = std::move(*made);
+    }
     light::Environment black;
     black.radiance = Image(8, 4, 3);
     SHOAL_TRY(state_->lighting.setEnvironment(loaded->content.environment ? *loaded->content.environment : black));
@@ -283,6 +311,11 @@ Result<void> Pipeline::render(const FrameRequest& request) {
     s.loaded->geometry->update(context);
     s.drawNeededViews(context);
     s.lighting.setTermsWanted(false);
+    if (s.loaded->water) {
+        SHOAL_TRY(s.loaded->water->resize(request.width, request.height));
+        s.loaded->water->setTermsWanted(false);
+        s.loaded->water->renderFrame(context, s.waterScene());
+    }
     const frame::PostParams& look = s.loaded->postParams;
     s.post.setExpectedExposure(look.exposureMode == "fixed" ? std::exp2(look.exposureEv) : 0);
     if (!temporal) s.post.beginAccumulation(request.width, request.height);
@@ -307,6 +340,7 @@ Result<void> Pipeline::render(const FrameRequest& request) {
         context.jitterPx = {};
         context.sampleIndex = firstSample;
         s.lighting.setTermsWanted(s.wantsTerms());
+        if (s.loaded->water) s.loaded->water->setTermsWanted(s.wantsTerms());
         s.drawSample(context);
     }
     return {};
@@ -326,10 +360,11 @@ void Pipeline::setAovs(std::span<const std::string> names) { state_->aovNames.as
 
 Result<std::vector<Layer>> Pipeline::readAovs() {
     SHOAL_ASSERT_MSG(state_->targets, "render comes before readAovs");
+    const WaterPass* water = state_->loaded ? state_->loaded->water.get() : nullptr;
     std::vector<Layer> layers;
     for (const std::string& name : state_->aovNames) {
         SHOAL_TRY_ASSIGN(Layer layer,
-                         readAov({state_->device, *state_->targets, state_->lighting, state_->post}, name));
+                         readAov({state_->device, *state_->targets, state_->lighting, state_->post, water}, name));
         layers.push_back(std::move(layer));
     }
     return layers;
