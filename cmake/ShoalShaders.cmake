@@ -3,13 +3,14 @@
 
 # shoal_embed_shaders(TARGET module): compiles the texts of src/<module>/**/shaders into TARGET as
 # shoal::<module>::embeddedShaders() (src/gl/embedded_shader.h), and has glslangValidator check every entry point
-# (*.vert, *.frag, *.comp, each also with .glsl behind) with its includes resolved. A shader that fails fails the build.
+# (*.vert, *.frag, *.comp, *.geom, each also with .glsl behind) with its includes resolved. A shader that fails fails the
+# build.
 function(shoal_embed_shaders target module)
     set(dir "${PROJECT_SOURCE_DIR}/src/${module}")
     set(tool "${PROJECT_SOURCE_DIR}/cmake/shaders.py")
     set(generated "${PROJECT_BINARY_DIR}/generated")
     file(GLOB_RECURSE shaders CONFIGURE_DEPENDS "${dir}/*.glsl" "${dir}/*.vert" "${dir}/*.frag" "${dir}/*.comp"
-        "${dir}/*.shared.h")
+        "${dir}/*.geom" "${dir}/*.shared.h")
     list(FILTER shaders INCLUDE REGEX "/shaders/")
 
     # Lets C++ say #include "frame/x.lib.glsl" as GLSL does (shoal_add_module puts shader_include on the path).
@@ -26,7 +27,7 @@ function(shoal_embed_shaders target module)
     target_sources(${target} PRIVATE "${table}")
 
     foreach(shader IN LISTS shaders)
-        if(NOT shader MATCHES "\\.(vert|frag|comp)(\\.glsl)?$")
+        if(NOT shader MATCHES "\\.(vert|frag|comp|geom)(\\.glsl)?$")
             continue()
         endif()
         file(RELATIVE_PATH name "${PROJECT_SOURCE_DIR}/src" "${shader}")

@@ -319,4 +319,32 @@ void visit(P& p, V&& v) {
 }
 Result<Model> makePlaza(const PlazaShape& shape);
 
+// A shoal of fish that swims counter-clockwise (seen from above) round the origin; y = 0 is its middle. A clip of one lap.
+struct FishShape {
+    std::string species = "sardine";
+    int count = 60;
+    float length = 0.22f, variation = 0.15f, radius = 3, speed = 0.7f, wander = 1;
+    Vec3 spread{1.4f, 0.9f, 3.5f};
+    std::uint32_t seed = 1;
+};
+template <class P, class V>
+requires std::is_same_v<std::remove_const_t<P>, FishShape>
+void visit(P& p, V&& v) {
+    v(p.species, Field{"species",
+                       "",
+                       -1e30,
+                       1e30,
+                       "what fish",
+                       {"sardine", "fusilier", "butterfly", "sergeant", "grouper"}});
+    v(p.count, Field{"count", "", 1, 2000, "how many"});
+    v(p.length, Field{"length", "m", 0.01, 20, "of a fish"});
+    v(p.variation, Field{"variation", "", 0, 0.9, "how much their lengths differ"});
+    v(p.radius, Field{"radius", "m", 0.1, 1000, "of their way round"});
+    v(p.speed, Field{"speed", "m/s", 0.001, 100, "how fast they swim"});
+    v(p.wander, Field{"wander", "", 0, 1, "how far their way differs from a level circle"});
+    v(p.spread, Field{"spread", "m", 0, 1000, "of the shoal: across its way, up, along its way"});
+    v(p.seed, Field{"seed", "", 0, 4294967295.0, "another shoal"});
+}
+Result<Model> makeFish(const FishShape& shape);
+
 }  // namespace shoal::scene

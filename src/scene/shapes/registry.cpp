@@ -38,6 +38,7 @@ const std::map<std::string, Kind, std::less<>>& kinds() {
         {"houses", kindOf<HousesShape, makeHouses>()},
         {"colonnade", kindOf<ColonnadeShape, makeColonnade>()},
         {"boat", kindOf<BoatShape, makeBoat>()},
+        {"fish", kindOf<FishShape, makeFish>()},
     };
     return all;
 }

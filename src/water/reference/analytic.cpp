@@ -93,7 +93,8 @@ std::vector<Piece> pieces(const Sinusoid& s, double depth, double min, double ma
             least = std::min(least, height * drift(phi));
             most = std::max(most, height * drift(phi));
         }
-    const double period = 2 * kPiD / s.k, first = min - most, last = max - least;
+    // A nanometre more: without waves both ends are one point.
+    const double period = 2 * kPiD / s.k, first = min - most - 1e-9, last = max - least + 1e-9;
     std::vector<double> ends{first};
     const std::vector<double> folds = foldEntries(s, depth);
     for (double base = std::floor(first / period) * period; base < last; base += period)

@@ -84,9 +84,10 @@ void checkModel(const Model& model, const std::string& what) {
         EXPECT_FALSE(mesh.primitives.empty()) << what;
         for (const Primitive& p : mesh.primitives) checkPrimitive(model, p, what + "/" + mesh.name);
     }
-    for (const Node& node : model.nodes) {
-        EXPECT_LT(node.mesh, int(model.meshes.size())) << what;
-        EXPECT_EQ(node.parent, -1) << what;
+    for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+        EXPECT_LT(model.nodes[i].mesh, int(model.meshes.size())) << what;
+        EXPECT_LT(model.nodes[i].parent, int(i)) << what;  // parents come first
+        EXPECT_LT(model.nodes[i].skin, int(model.skins.size())) << what;
     }
     for (const Material& m : model.materials)
         for (const TextureUse* use : {&m.baseColorTexture, &m.normalTexture, &m.metallicRoughnessTexture})

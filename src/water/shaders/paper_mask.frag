@@ -1,0 +1,4 @@
+#version 450 core
+layout(location = 0) out float outWater;
+
+void main() { outWater = 1.0; }
