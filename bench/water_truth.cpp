@@ -177,7 +177,7 @@ double rmse(const Image& a, const Image& b) {
 
 Result<water::WaveField> wavesOf(WaterStage& stage) {
     SHOAL_TRY_ASSIGN(auto spec, pipeline::readWater(stage.pipeline().scene()));
-    return water::WaveField::create(spec->waves, spec->components, std::move(spec->heightmaps));
+    return water::WaveField::create(spec->setup.waves, spec->setup.components, std::move(spec->setup.heightmaps));
 }
 
 Result<std::vector<Row>> patch(const Settings& settings) {

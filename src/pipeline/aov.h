@@ -15,7 +15,7 @@ struct AovSources {
     const frame::Targets& targets;
     const frame::Lighting& lighting;
     const frame::Post& post;
-    const WaterPass* water;  // null: the scene has none
+    WaterPass* water;  // null: the scene has none
 };
 
 // The AOV called `name` as a layer; `name` is one of aovs().

@@ -360,7 +360,7 @@ void Pipeline::setAovs(std::span<const std::string> names) { state_->aovNames.as
 
 Result<std::vector<Layer>> Pipeline::readAovs() {
     SHOAL_ASSERT_MSG(state_->targets, "render comes before readAovs");
-    const WaterPass* water = state_->loaded ? state_->loaded->water.get() : nullptr;
+    WaterPass* water = state_->loaded ? state_->loaded->water.get() : nullptr;
     std::vector<Layer> layers;
     for (const std::string& name : state_->aovNames) {
         SHOAL_TRY_ASSIGN(Layer layer,

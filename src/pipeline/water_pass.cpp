@@ -19,38 +19,22 @@ void clear(const gl::Texture& texture) {
 
 }  // namespace
 
-WaterPass::WaterPass(gl::Device& device, WaterSpec spec, Vec3 skyIrradiance, water::WaveField waves,
-                     water::Optics optics, water::GpuWaves gpuWaves, water::LightViews views, water::Photons photons,
-                     water::Shafts shafts, water::Surface surface)
-    : device_(device), spec_(std::move(spec)), skyIrradiance_(skyIrradiance), waves_(std::move(waves)), optics_(optics),
-      gpuWaves_(std::move(gpuWaves)), views_(std::move(views)), photons_(std::move(photons)),
-      shafts_(std::move(shafts)), surface_(std::move(surface)) {}
+WaterPass::WaterPass(gl::Device& device, const WaterSpec& spec, Vec3 skyIrradiance, water::Water water)
+    : device_(device), params_(spec.params), paperParams_(spec.paper), skyIrradiance_(skyIrradiance),
+      water_(std::move(water)) {}
 
 Result<std::unique_ptr<WaterPass>> WaterPass::create(gl::Device& device, WaterSpec spec, Vec3 skyIrradiance) {
-    SHOAL_TRY_ASSIGN(const water::Optics optics, water::resolveOptics(spec.optics));
-    SHOAL_TRY_ASSIGN(water::WaveField waves,
-                     water::WaveField::create(spec.waves, spec.components, std::move(spec.heightmaps)));
-    SHOAL_TRY_ASSIGN(water::GpuWaves gpuWaves, water::GpuWaves::create(device));
-    SHOAL_TRY_ASSIGN(water::LightViews views, water::LightViews::create(device, {}));
-    SHOAL_TRY_ASSIGN(water::Photons photons, water::Photons::create(device, {}));
-    SHOAL_TRY_ASSIGN(water::Shafts shafts, water::Shafts::create(device, {}));
-    SHOAL_TRY_ASSIGN(water::Surface surface, water::Surface::create(device));
-    std::optional<water::PaperMethod> paper;
-    if (spec.photons.method == "paper") {
-        SHOAL_TRY_ASSIGN(paper, water::PaperMethod::create(device));
+    SHOAL_TRY_ASSIGN(water::Water water, water::Water::create(device, std::move(spec.setup)));
+    std::unique_ptr<WaterPass> pass(new WaterPass(device, spec, skyIrradiance, std::move(water)));
+    if (spec.params.photons.method == "paper") {
+        SHOAL_TRY_ASSIGN(pass->paper_, water::PaperMethod::create(device));
     }
-    std::unique_ptr<WaterPass> pass(new WaterPass(device, std::move(spec), skyIrradiance, std::move(waves), optics,
-                                                  std::move(gpuWaves), std::move(views), std::move(photons),
-                                                  std::move(shafts), std::move(surface)));
-    pass->paper_ = std::move(paper);
     return pass;
 }
 
-frame::Medium WaterPass::medium() const { return {spec_.body.level, optics_.beamAttenuation()}; }
-
-bool WaterPass::shafts() const {
-    const Vec3 b = optics_.scattering;
-    return spec_.shafts.enabled && std::max({b.x, b.y, b.z}) > 0;
+frame::Medium WaterPass::medium() const {
+    const water::Body body = water_.body();
+    return {body.params.level, body.optics.beamAttenuation()};
 }
 
 Result<void> WaterPass::resize(int width, int height) {
@@ -63,8 +47,6 @@ Result<void> WaterPass::resize(int width, int height) {
     return {};
 }
 
-water::Body WaterPass::body() const { return {spec_.body, optics_, &waves_, &gpuWaves_}; }
-
 water::BodyLights WaterPass::bodyLights(const WaterScene& scene) const {
     return {scene.lights.sun, scene.lights.punctual, skyIrradiance_};
 }
@@ -76,23 +58,18 @@ void WaterPass::drawDepths(const frame::Context& context, std::span<frame::Neede
 }
 
 void WaterPass::renderFrame(const frame::Context& context, const WaterScene& scene) {
-    waves_.setTime(context.time);
-    if (const auto uploaded = gpuWaves_.update(waves_); !uploaded)
-        device_.log(LogLevel::error, uploaded.error().message);
-    const water::Body body = this->body();
     const water::BodyLights lights = bodyLights(scene);
     const Bounds bounds = scene.geometry.bounds();
-    if (paper()) {
-        paper_->prepare(context, spec_.paper, body, lights, bounds);
+    water_.prepare(context, params_, lights, bounds);
+    if (paper_) {
+        paper_->prepare(context, paperParams_, water_.body(), lights, bounds);
         drawDepths(context, paper_->neededViews(), scene.geometry);
     } else {
-        views_.prepare(context, spec_.lightViews, body, lights, bounds);
-        drawDepths(context, views_.neededViews(), scene.geometry);
-        if (spec_.photons.method == "shoal") photons_.render(context, spec_.photons, body, lights, views_);
-        if (shafts()) shafts_.render(context, spec_.shafts, body, lights, views_);
+        drawDepths(context, water_.neededViews(), scene.geometry);
+        water_.renderLight(context, params_, lights);
     }
-    surface_.prepare(context, spec_.surface, body, bounds);
-    const auto needed = surface_.neededViews();
+    water_.surface().prepare(context, params_.surface, water_.body(), bounds);
+    const auto needed = water_.surface().neededViews();
     mirrorTargets_.resize(std::max(mirrorTargets_.size(), needed.size()));
     mirrors_.clear();
     for (std::size_t i = 0; i < needed.size(); ++i) {
@@ -132,7 +109,7 @@ void WaterPass::drawMirror(const frame::Context& context, const WaterScene& scen
     scene.geometry.drawSurfaces(mirrored, to.targets->gbuffer());
     to.targets->finishSurfaces(mirrored);
     frame::LightOverrides overrides;
-    if (!paper()) {
+    if (!paper_) {
         resolve(mirrored, scene, *to.targets, to.direct, to.ambient);
         overrides = {to.direct, to.ambient};
     }
@@ -143,16 +120,16 @@ void WaterPass::drawMirror(const frame::Context& context, const WaterScene& scen
 void WaterPass::resolve(const frame::Context& context, const WaterScene& scene, const frame::Targets& targets,
                         const gl::Texture& direct, const gl::Texture& ambient) {
     const frame::GBuffer& g = targets.gbuffer();
-    photons_.resolve(context, body(), bodyLights(scene), views_, {g.viewDepth, g.normal}, {direct, ambient});
+    water_.light(context, bodyLights(scene), {g.viewDepth, g.normal}, {direct, ambient});
 }
 
 frame::LightOverrides WaterPass::light(const frame::Context& context, const WaterScene& scene,
                                        const frame::Targets& targets) {
-    if (paper()) {
+    if (paper_) {
         const frame::GBuffer& g = targets.gbuffer();
         const water::ReceiverInputs receivers{g.viewDepth, g.normal};
-        paper_->render(context, spec_.paper, body(), bodyLights(scene), receivers, g.depth);
-        paper_->compose(context, spec_.paper, receivers, {direct_, ambient_}, inscatter_);
+        paper_->render(context, paperParams_, water_.body(), bodyLights(scene), receivers, g.depth);
+        paper_->compose(context, paperParams_, receivers, {direct_, ambient_}, inscatter_);
     } else {
         resolve(context, scene, targets, direct_, ambient_);
     }
@@ -160,13 +137,10 @@ frame::LightOverrides WaterPass::light(const frame::Context& context, const Wate
 }
 
 void WaterPass::draw(const frame::Context& context, const WaterScene& scene, const frame::Targets& targets) {
-    const water::Body body = this->body();
     const water::BodyLights lights = bodyLights(scene);
     const frame::GBuffer& g = targets.gbuffer();
-    surface_.trace(context, spec_.surface, body, g.viewDepth, g.depth);
-    const bool scatters = paper() || shafts();
-    if (!paper() && scatters)
-        shafts_.march(context, spec_.shafts, body, lights, views_, surface_.paths(), g.viewDepth, {inscatter_});
+    const bool scatters = paper_ || water_.scatters(params_);
+    water_.scatter(context, params_, lights, g.viewDepth, g.depth, paper_ ? gl::TextureView() : inscatter_.view());
     {
         const gl::PassScope pass(context.timer, "copy opaque");
         targets.copyOpaque();
@@ -174,8 +148,9 @@ void WaterPass::draw(const frame::Context& context, const WaterScene& scene, con
     targets.forward().bind();
     scene.lighting.bind();
     scene.shadows.bind();
-    surface_.compose(context, spec_.surface, body, lights,
-                     {targets.opaqueCopy(), g.viewDepth, scatters ? inscatter_.view() : gl::TextureView(), mirrors_});
+    water_.surface().compose(context, params_.surface, water_.body(), lights,
+                             {targets.opaqueCopy(), g.viewDepth, scatters ? inscatter_.view() : gl::TextureView(),
+                              mirrors_});
 }
 
 }  // namespace shoal::pipeline

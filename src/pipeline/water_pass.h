@@ -10,7 +10,7 @@
 #include <shoal/frame/shadows.h>
 #include <shoal/frame/targets.h>
 #include <shoal/pipeline/water.h>
-#include <shoal/water/gpu_waves.h>
+#include <shoal/water/water.h>
 
 namespace shoal::pipeline {
 
@@ -39,11 +39,11 @@ public:
     void draw(const frame::Context& context, const WaterScene& scene, const frame::Targets& targets);
 
     // Of the last sample; transmittance and waterDepth only where terms were wanted.
-    void setTermsWanted(bool wanted) { surface_.setTermsWanted(wanted); }
+    void setTermsWanted(bool wanted) { water_.surface().setTermsWanted(wanted); }
     gl::TextureView caustics() const { return direct_.view(); }
     gl::TextureView inscatter() const { return inscatter_.view(); }
-    gl::TextureView transmittance() const { return surface_.transmittance(); }
-    gl::TextureView waterDepth() const { return surface_.waterDepth(); }
+    gl::TextureView transmittance() { return water_.surface().transmittance(); }
+    gl::TextureView waterDepth() { return water_.surface().waterDepth(); }
 
 private:
     struct MirrorTargets {
@@ -51,13 +51,8 @@ private:
         gl::Texture direct, ambient;
     };
 
-    WaterPass(gl::Device& device, WaterSpec spec, Vec3 skyIrradiance, water::WaveField waves, water::Optics optics,
-              water::GpuWaves gpuWaves, water::LightViews views, water::Photons photons, water::Shafts shafts,
-              water::Surface surface);
-    water::Body body() const;
+    WaterPass(gl::Device& device, const WaterSpec& spec, Vec3 skyIrradiance, water::Water water);
     water::BodyLights bodyLights(const WaterScene& scene) const;
-    bool paper() const { return spec_.photons.method == "paper"; }
-    bool shafts() const;
     void drawDepths(const frame::Context& context, std::span<frame::NeededView> views, frame::Geometry& geometry);
     void resolve(const frame::Context& context, const WaterScene& scene, const frame::Targets& targets,
                  const gl::Texture& direct, const gl::Texture& ambient);
@@ -66,16 +61,11 @@ private:
     Result<void> resizeMirror(const light::View& view, MirrorTargets& mirror);
 
     gl::Device& device_;
-    WaterSpec spec_;
+    water::WaterParams params_;
+    water::PaperParams paperParams_;
     Vec3 skyIrradiance_;
-    water::WaveField waves_;
-    water::Optics optics_;
-    water::GpuWaves gpuWaves_;
-    water::LightViews views_;
-    water::Photons photons_;
-    water::Shafts shafts_;
-    water::Surface surface_;
-    std::optional<water::PaperMethod> paper_;
+    water::Water water_;
+    std::optional<water::PaperMethod> paper_;  // of method = "paper", in place of photons and shafts
     gl::Texture direct_, ambient_, inscatter_;
     std::vector<MirrorTargets> mirrorTargets_;
     std::vector<water::SurfaceInputs::Mirror> mirrors_;  // of this frame
