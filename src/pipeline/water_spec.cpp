@@ -23,7 +23,7 @@ Result<void> bindComponents(const scene::Scene& scene, WaterSpec& spec) {
         if (table.name.rfind(prefix, 0) != 0) continue;
         water::WaveComponentParams component;
         SHOAL_TRY(scene::bindTable(table, component));
-        spec.components.push_back(component);
+        spec.setup.components.push_back(component);
     }
     return {};
 }
@@ -44,15 +44,15 @@ Result<Image> readHeightmap(const std::filesystem::path& file) {
 
 // `wave_####.exr` is the sequence of files that are there, from the lowest number up, without a gap.
 Result<void> readHeightmaps(const scene::Scene& scene, const scene::RawTable& table, WaterSpec& spec) {
-    if (spec.waves.file.empty()) return at(table, badInput("file: found nothing, expected a picture of heights"));
-    const std::filesystem::path given(spec.waves.file);
+    if (spec.setup.waves.file.empty()) return at(table, badInput("file: found nothing, expected a picture of heights"));
+    const std::filesystem::path given(spec.setup.waves.file);
     const std::filesystem::path path = given.is_absolute() ? given : scene.file.parent_path() / given;
     std::string name = path.filename().string();
     const std::size_t first = name.find('#');
     if (first == std::string::npos) {
         auto one = readHeightmap(path);
         if (!one) return at(table, one.error());
-        spec.heightmaps.push_back(std::move(*one));
+        spec.setup.heightmaps.push_back(std::move(*one));
         return {};
     }
     const std::size_t last = std::min(name.find_first_not_of('#', first), name.size());
@@ -63,12 +63,12 @@ Result<void> readHeightmaps(const scene::Scene& scene, const scene::RawTable& ta
     };
     int number = 0;
     while (number < kMostHeightmaps && !std::filesystem::exists(numbered(number))) ++number;
-    for (; int(spec.heightmaps.size()) < kMostHeightmaps && std::filesystem::exists(numbered(number)); ++number) {
+    for (; int(spec.setup.heightmaps.size()) < kMostHeightmaps && std::filesystem::exists(numbered(number)); ++number) {
         auto one = readHeightmap(numbered(number));
         if (!one) return at(table, one.error());
-        spec.heightmaps.push_back(std::move(*one));
+        spec.setup.heightmaps.push_back(std::move(*one));
     }
-    if (spec.heightmaps.empty()) return at(table, badInput("file: no picture of " + path.string() + " is there"));
+    if (spec.setup.heightmaps.empty()) return at(table, badInput("file: no picture of " + path.string() + " is there"));
     return {};
 }
 
@@ -97,17 +97,18 @@ Result<std::optional<WaterSpec>> readWater(const scene::Scene& scene) {
         if (const scene::RawTable* table = scene.table(name)) return scene::bindTable(*table, params...);
         return {};
     };
-    SHOAL_TRY(bind("water", spec.body, spec.optics));
-    SHOAL_TRY(bind("water.waves", spec.waves));
+    SHOAL_TRY(bind("water", spec.setup.body, spec.setup.optics));
+    SHOAL_TRY(bind("water.waves", spec.setup.waves));
     SHOAL_TRY(bindComponents(scene, spec));
-    SHOAL_TRY(bind("water.caustics", spec.photons, spec.lightViews));
-    SHOAL_TRY(bind("water.shafts", spec.shafts));
-    SHOAL_TRY(bind("water.surface", spec.surface));
+    SHOAL_TRY(bind("water.caustics", spec.params.photons, spec.params.lightViews, spec.setup.lightViews));
+    SHOAL_TRY(bind("water.shafts", spec.params.shafts));
+    SHOAL_TRY(bind("water.surface", spec.params.surface));
     SHOAL_TRY(bind("water.paper", spec.paper));
-    if (spec.body.areaMin.x >= spec.body.areaMax.x || spec.body.areaMin.y >= spec.body.areaMax.y)
+    if (spec.setup.body.areaMin.x >= spec.setup.body.areaMax.x ||
+        spec.setup.body.areaMin.y >= spec.setup.body.areaMax.y)
         return badInput(scene.table("water")->place.describe() +
                         ": water.areaMin: found a corner beyond areaMax, expected one before it in x and z");
-    if (spec.waves.kind == "heightmap") SHOAL_TRY(readHeightmaps(scene, *scene.table("water.waves"), spec));
+    if (spec.setup.waves.kind == "heightmap") SHOAL_TRY(readHeightmaps(scene, *scene.table("water.waves"), spec));
     return std::optional<WaterSpec>(std::move(spec));
 }
 

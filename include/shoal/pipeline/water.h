@@ -8,26 +8,17 @@
 #include <shoal/core/result.h>
 #include <shoal/scene/content.h>
 #include <shoal/scene/scene.h>
-#include <shoal/water/body.h>
-#include <shoal/water/light_views.h>
 #include <shoal/water/paper.h>
-#include <shoal/water/photons.h>
-#include <shoal/water/shafts.h>
-#include <shoal/water/surface.h>
+#include <shoal/water/water.h>
 
 namespace shoal::pipeline {
 
 struct WaterSpec {
-    water::BodyParams body;                              // [water]
-    water::OpticsParams optics;                          // [water]
-    water::WaveParams waves;                             // [water.waves], or waves = { ... }
-    std::vector<water::WaveComponentParams> components;  // its components = [ { ... }, ... ]
-    std::vector<Image> heightmaps;                       // of kind heightmap, metres; read
-    water::PhotonParams photons;                         // [water.caustics]
-    water::LightViewParams lightViews;                   // [water.caustics]
-    water::ShaftParams shafts;                           // [water.shafts]
-    water::SurfaceParams surface;                        // [water.surface]
-    water::PaperParams paper;                            // [water.paper]
+    // [water] (body, optics), waves = { ..., components = [ { ... }, ... ] }, heightmaps read, [water.caustics]
+    // resolution.
+    water::WaterSetup setup;
+    water::WaterParams params;  // [water.caustics] (photons, lightViews), [water.shafts], [water.surface]
+    water::PaperParams paper;   // [water.paper]
 };
 
 // Nothing where the scene has no [water] table. Errors name file, line and key.
