@@ -31,9 +31,9 @@ Result<Water> Water::create(gl::Device& device, WaterSetup setup) {
     SHOAL_TRY_ASSIGN(Shafts shafts, Shafts::create(device, setup.shafts));
     SHOAL_TRY_ASSIGN(Surface surface, Surface::create(device));
     SHOAL_TRY(gpuWaves.update(waves));
-    return Water(std::unique_ptr<State>(new State{device, setup.body, optics, std::move(waves), std::move(gpuWaves),
-                                                  std::move(views), std::move(photons), std::move(shafts),
-                                                  std::move(surface)}));
+    return Water(
+        std::unique_ptr<State>(new State{device, setup.body, optics, std::move(waves), std::move(gpuWaves),
+                                         std::move(views), std::move(photons), std::move(shafts), std::move(surface)}));
 }
 
 Body Water::body() const {

@@ -21,6 +21,12 @@ struct LightViewSetup {
     int resolution = 512;  // texels a side of a cascade: depth and irradiance alike
     int maxSlots = 6;      // cascades of all lights together, reflected ones included
 };
+template <class P, class V>
+requires std::is_same_v<std::remove_const_t<P>, LightViewSetup>
+void visit(P& p, V&& v) {
+    v(p.resolution, Field{"resolution", "", 64, 8192, "texels a side of each map of light, a power of two"});
+    v(p.maxSlots, Field{"maxSlots", "", 1, 8, "maps of all lights together"});
+}
 
 struct LightViewParams {
     float distance = 60;    // metres from the eye

@@ -25,7 +25,9 @@ struct OpticsParams {
     std::string phase = "henyey-greenstein";
     float anisotropy = 0.924f;
     float backscatter = 0.0183f;  // fournier-forand: chooses (n, mu)
-    float forwardFraction = -1;   // share of scattered light that stays in the beam; -1: anisotropy^2
+    // Share of scattered light that stays in the beam; -1: the mean cosine squared (anisotropy^2). For fournier-forand at
+    // least what is scattered by less than 0.04 degrees.
+    float forwardFraction = -1;
     float index = float(kWaterIndex);
 };
 template <class P, class V>
@@ -46,7 +48,7 @@ void visit(P& p, V&& v) {
     v(p.anisotropy, Field{"anisotropy", "", -0.99, 0.99, "mean cosine of scattering (Henyey-Greenstein g)"});
     v(p.backscatter, Field{"backscatter", "", 0.0001, 0.2, "fournier-forand: fraction scattered backwards"});
     v(p.forwardFraction, Field{"forwardFraction", "", -1, 0.999,
-                               "share of scattered light that stays in the beam; -1: anisotropy squared"});
+                               "share of scattered light that stays in the beam; -1: mean cosine squared"});
     v(p.index, Field{"index", "", 1.0001, 3, "index of refraction"});
 }
 
@@ -61,7 +63,7 @@ struct Optics {
     float anisotropy = 0;                  // g' of the scattering that is not in the beam
     float ffIndex = 1.1f, ffSlope = 3.5f;  // Fournier-Forand n and mu
     float ffScale = 1;                     // makes the function integrate to 1
-    float ffPeak = 0;  // Fournier-Forand without its beam: held below this sin^2 of half the angle [Potter 1970]
+    float ffPeak = 1e-7f;  // Fournier-Forand without its beam: held below this sin^2 of half the angle [Potter 1970]
     Vec3 beamAttenuation() const { return absorption + scattering * (1 - forwardFraction); }
     Vec3 beamScattering() const { return scattering * (1 - forwardFraction); }
 };
@@ -71,7 +73,7 @@ Result<Optics> resolveOptics(const OpticsParams& params);
 // 1/sr, integrates to 1 over the sphere; cosTheta between the directions before and after (1: straight on). The same
 // function as optics.lib.glsl's waterPhase.
 float phaseFunction(const Optics& optics, float cosTheta);
-// What waterPhase of optics.lib.glsl takes: (0, g', 0, 1) or (1 + ffPeak, ffIndex, ffSlope, ffScale).
+// What waterPhase of optics.lib.glsl takes: (0, g', 0, 1) or (ffPeak, ffIndex, ffSlope, ffScale).
 Vec4 phaseVector(const Optics& optics);
 
 // Kd of light whose directions just below the surface have the mean cosine `cosBelow` in (0, 1] to the vertical:

@@ -9,6 +9,7 @@
 namespace shoal::water {
 namespace {
 
+constexpr double kLeastPeak = 1e-7;  // sin^2 of half the angle: the function grows without end towards 0
 constexpr const char* kChannels[3] = {"red", "green", "blue"};
 
 float& channel(Vec3& v, int i) { return i == 0 ? v.x : i == 1 ? v.y : v.z; }
@@ -50,11 +51,11 @@ void choosePhase(const OpticsParams& params, Optics& optics) {
     optics.phase = Optics::Phase::fournierForand;
     const FournierForand function = fournierForandOf(double(params.backscatter));
     optics.ffIndex = float(function.index), optics.ffSlope = float(function.slope);
-    const double g = momentsOf(function, 0).meanCosine;
-    const double f = params.forwardFraction >= 0 ? double(params.forwardFraction) : g > 0 ? g * g : 0.0;
-    optics.forwardFraction = float(f);
-    const double peak = f > 0 ? peakThatLeaves(function, 1 - f) : 1e-7;
+    const PhaseMoments all = momentsOf(function, 0);
+    const double g = all.meanCosine, wanted = params.forwardFraction >= 0 ? double(params.forwardFraction) : g * g;
+    const double peak = std::max(peakThatLeaves(function, 1 - wanted), kLeastPeak);
     const PhaseMoments rest = momentsOf(function, peak);
+    optics.forwardFraction = float(1 - rest.total / all.total);
     optics.ffPeak = float(peak), optics.ffScale = float(1 / rest.total), optics.anisotropy = float(rest.meanCosine);
 }
 
@@ -116,7 +117,7 @@ Vec3 diffuseAttenuationAt(const Optics& optics, double cosBelow) {
 
 Vec4 phaseVector(const Optics& optics) {
     if (optics.phase == Optics::Phase::henyeyGreenstein) return {0, optics.anisotropy, 0, 1};
-    return {1 + optics.ffPeak, optics.ffIndex, optics.ffSlope, optics.ffScale};
+    return {optics.ffPeak, optics.ffIndex, optics.ffSlope, optics.ffScale};
 }
 
 float phaseFunction(const Optics& optics, float cosTheta) {
@@ -125,7 +126,7 @@ float phaseFunction(const Optics& optics, float cosTheta) {
         const double g = double(optics.anisotropy), d = 1 + g * g - 2 * g * c;
         return float((1 - g * g) / (4 * kPiD * d * std::sqrt(d)));
     }
-    const double sine2 = std::clamp(0.5 - 0.5 * c, std::max(double(optics.ffPeak), 1e-7), 1.0);
+    const double sine2 = std::clamp(0.5 - 0.5 * c, double(optics.ffPeak), 1.0);
     return float(double(optics.ffScale) *
                  FournierForand{double(optics.ffIndex), double(optics.ffSlope)}.at(sine2));
 }

@@ -46,9 +46,10 @@ FournierForand fournierForandOf(double backscatter) {
 }
 
 PhaseMoments momentsOf(const FournierForand& function, double peak) {
-    // dOmega = 4 pi d(sine2); in the logarithm of sine2, where the function is smooth, down to where nothing is left.
-    const double least = 1e-16, from = std::max(peak, least);
-    const int steps = 2000;  // even; Simpson's rule
+    // dOmega = 4 pi d(sine2); in the logarithm of sine2, where the function is smooth. Below `least` it is a power of
+    // sine2, -(1 + v).
+    const double least = 1e-10, from = std::max(peak, least);
+    const int steps = 800;  // even; Simpson's rule
     const double low = std::log(from), width = -low / steps;
     PhaseMoments m;
     double cosine = 0;
@@ -59,7 +60,8 @@ PhaseMoments momentsOf(const FournierForand& function, double peak) {
     }
     const double scale = 4 * kPiD * width / 3;
     m.total *= scale, cosine *= scale;
-    const double held = 4 * kPiD * from * function.at(from);
+    const double belowPeak = peak >= least ? 1 : 2 / (function.slope - 3);
+    const double held = 4 * kPiD * from * function.at(from) * belowPeak;
     m.total += held, cosine += held * (1 - from);
     m.meanCosine = m.total > 0 ? cosine / m.total : 0;
     return m;
@@ -67,7 +69,7 @@ PhaseMoments momentsOf(const FournierForand& function, double peak) {
 
 double peakThatLeaves(const FournierForand& function, double rest) {
     const double target = rest * momentsOf(function, 0).total;
-    double low = std::log(1e-14), high = 0;
+    double low = std::log(1e-10), high = 0;
     for (int i = 0; i < 50; ++i) {
         const double middle = 0.5 * (low + high);
         (momentsOf(function, std::exp(middle)).total > target ? low : high) = middle;

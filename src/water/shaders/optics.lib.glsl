@@ -62,8 +62,8 @@ SHOAL_FUNCTION float phaseFournierForand(float sine2, float index, float slope) 
 // 1/sr; integrates to 1 over the sphere. cosTheta: between the directions before and after (1: straight on). phase:
 // Optics' phaseVector.
 SHOAL_FUNCTION float waterPhase(float cosTheta, vec4 phase) {
-    if (phase.x < 0.5) return phaseHenyeyGreenstein(cosTheta, phase.y);
-    float sine2 = clamp(0.5 - 0.5 * cosTheta, max(phase.x - 1.0, 1e-7), 1.0);
+    if (phase.x <= 0.0) return phaseHenyeyGreenstein(cosTheta, phase.y);
+    float sine2 = clamp(0.5 - 0.5 * cosTheta, phase.x, 1.0);
     return phase.w * phaseFournierForand(sine2, phase.y, phase.z);
 }
 
