@@ -104,12 +104,8 @@ Result<std::optional<WaterSpec>> readWater(const scene::Scene& scene) {
     SHOAL_TRY(bind("water.shafts", spec.params.shafts));
     SHOAL_TRY(bind("water.surface", spec.params.surface));
     SHOAL_TRY(bind("water.paper", spec.paper));
-<<<<<<< HEAD
-    if (spec.setup.body.areaMin.x >= spec.setup.body.areaMax.x || spec.setup.body.areaMin.y >= spec.setup.body.areaMax.y)
-=======
     if (spec.setup.body.areaMin.x >= spec.setup.body.areaMax.x ||
         spec.setup.body.areaMin.y >= spec.setup.body.areaMax.y)
->>>>>>> main
         return badInput(scene.table("water")->place.describe() +
                         ": water.areaMin: found a corner beyond areaMax, expected one before it in x and z");
     if (spec.setup.waves.kind == "heightmap") SHOAL_TRY(readHeightmaps(scene, *scene.table("water.waves"), spec));
