@@ -113,7 +113,8 @@ public:
     WaveField& operator=(WaveField&&) noexcept;
     ~WaveField();
 
-    void setTime(double seconds);  // of the scene; makes the tiles of an ocean (some ms). Starts at 0
+    // Of the scene, finite (else nothing happens); makes the tiles of an ocean (some ms). Starts at 0.
+    void setTime(double seconds);
     double time() const;
     WaveSample at(double x, double z) const;  // at the time set
     WaveBounds bounds() const;

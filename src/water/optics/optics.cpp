@@ -1,4 +1,5 @@
-// Fresnel's equations; delta-Eddington [Joseph, Wiscombe & Weinman 1976]; Kd from absorption and scattering [Kirk 1984].
+// Fresnel's equations; delta-Eddington [Joseph, Wiscombe & Weinman 1976]; Kd from absorption and scattering [Kirk
+// 1984].
 #include <cmath>
 #include <cstdio>
 
@@ -85,8 +86,7 @@ Result<Optics> resolveOptics(const OpticsParams& params) {
     if (!a) return a.error();
     const Result<Vec3> b = chosen("water.scattering", params.scattering, medium->scattering);
     if (!b) return b.error();
-    const Result<Vec3> kd =
-        chosen("water.diffuseAttenuation", params.diffuseAttenuation, medium->diffuseAttenuation);
+    const Result<Vec3> kd = chosen("water.diffuseAttenuation", params.diffuseAttenuation, medium->diffuseAttenuation);
     if (!kd) return kd.error();
     optics.absorption = *a, optics.scattering = *b, optics.diffuseAttenuation = *kd;
     for (int i = 0; i < 3; ++i) {
@@ -96,8 +96,9 @@ Result<Optics> resolveOptics(const OpticsParams& params) {
         if (own && !given)
             channel(optics.diffuseAttenuation, i) = float(kirk(double(absorption), double(channel(*b, i)), 1));
         if (absorption > channel(optics.diffuseAttenuation, i) * (1 + 1e-5f))
-            return badInput(std::string("water.diffuseAttenuation is ") + number(channel(optics.diffuseAttenuation, i)) +
-                            " in " + kChannels[i] + ", expected at least the absorption " + number(absorption));
+            return badInput(std::string("water.diffuseAttenuation is ") +
+                            number(channel(optics.diffuseAttenuation, i)) + " in " + kChannels[i] +
+                            ", expected at least the absorption " + number(absorption));
     }
     optics.index = params.index;
     choosePhase(params, optics);
@@ -127,8 +128,7 @@ float phaseFunction(const Optics& optics, float cosTheta) {
         return float((1 - g * g) / (4 * kPiD * d * std::sqrt(d)));
     }
     const double sine2 = std::clamp(0.5 - 0.5 * c, double(optics.ffPeak), 1.0);
-    return float(double(optics.ffScale) *
-                 FournierForand{double(optics.ffIndex), double(optics.ffSlope)}.at(sine2));
+    return float(double(optics.ffScale) * FournierForand{double(optics.ffIndex), double(optics.ffSlope)}.at(sine2));
 }
 
 }  // namespace shoal::water

@@ -16,7 +16,8 @@ namespace {
 // value = first + second, where first has 12 significant bits.
 std::pair<float, float> inTwoParts(double value) {
     int exponent = 0;
-    const double fraction = std::frexp(value, &exponent), first = std::ldexp(std::round(fraction * 4096), exponent - 12);
+    const double fraction = std::frexp(value, &exponent),
+                 first = std::ldexp(std::round(fraction * 4096), exponent - 12);
     return {float(first), float(value - first)};
 }
 
@@ -25,8 +26,7 @@ WaveBlock makeWaveBlock(const WaveField& field) {
     const auto planes = field.planeWaves();
     const auto tiles = field.tiles();
     const int size = tiles.empty() ? 1 : tiles[0].size;
-    block.counts = {float(planes.size()), float(tiles.size()), float(size),
-                    float(std::bit_width(unsigned(size)))};
+    block.counts = {float(planes.size()), float(tiles.size()), float(size), float(std::bit_width(unsigned(size)))};
     const WaveBounds bounds = field.bounds();
     block.bounds = {float(bounds.height), float(bounds.slope), float(bounds.wavelength), 0};
     const CircularWave& c = field.circularWave();

@@ -1,6 +1,7 @@
 // Where the periodic tiles of a wave field come from.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include <shoal/water/waves.h>
@@ -10,8 +11,9 @@ namespace shoal::water {
 class TileSource {
 public:
     virtual ~TileSource() = default;
-    // Writes what the waves are at `seconds` of wave time. The tiles keep their number, sizes and periods.
-    virtual void fill(double seconds, std::vector<WaveTile>& tiles) = 0;
+    // Writes what the waves are at `seconds` of wave time; false where nothing changed. Makes the tiles where there are
+    // none; they keep their number, sizes and periods.
+    virtual bool fill(double seconds, std::vector<WaveTile>& tiles) = 0;
     virtual WaveBounds bounds() const = 0;  // of the sum of the tiles, at any time
 };
 

@@ -1,0 +1,40 @@
+// What the passes of the shafts know of their slices (std140). Filled in src/water/shafts/shaft_block.cpp.
+#ifndef SHOAL_WATER_SHAFT_SHARED_H
+#define SHOAL_WATER_SHAFT_SHARED_H
+
+#define SHOAL_MAX_SHAFT_SLOTS 8
+
+#ifdef __cplusplus
+#include <shoal/core/math.h>
+namespace shoal::water {
+using vec4 = Vec4;
+#define SHOAL_SHAFT_BLOCK_BEGIN struct ShaftBlock
+#else
+#include "water/bindings.shared.h"
+#define SHOAL_SHAFT_BLOCK_BEGIN layout(std140, binding = SHOAL_BLOCK_WATER_PASS) uniform ShaftBlock
+#endif
+
+SHOAL_SHAFT_BLOCK_BEGIN {
+    vec4 grid;    // x: texels a side of a slice, y: slices of a slot, z: photons a texel's side, w: slots of the sun,
+                  // finest first
+    vec4 depths;  // slice k lies x (2^(y k) - 1) m below the level; z: 1 / y, w: depth of the last
+    vec4 units;   // x: fixed-point units of the light that level water puts on a texel, y: 1 / x, z: slots of lamps,
+                  // after the sun's
+    vec4 eye;     // xyz: where the eye seems to be from under water
+    vec4 slots[SHOAL_MAX_SHAFT_SLOTS];  // xy: light space of the corner of texel (0, 0), z: 1 / texel, w: index among
+                                        // LightViews::slots()
+    vec4 rims[SHOAL_MAX_SHAFT_SLOTS];   // least, greatest texel that all its light reaches: x + y d, z - y d at
+                                        // depth d
+    vec4 march;   // x: steps, y: 1 / scale of the small picture, z, w: shift of the pattern
+}
+#ifndef __cplusplus
+shaftBlock
+#endif
+    ;
+
+#ifdef __cplusplus
+}  // namespace shoal::water
+#endif
+#undef SHOAL_SHAFT_BLOCK_BEGIN
+
+#endif

@@ -1,0 +1,185 @@
+#version 450 core
+// The picture with water: at the surface what it mirrors and what it lets through; on the way what is lost and what is
+// scattered in. Drawn with fullscreen.vert.
+// L(air) = R L(mirrored) + T / n2 L(bent); L(water) = n2 T L(air, bent) + R L(mirrored); both
+// sides of the surface see the air along one ray, which is looked up in the sky and in the picture of what stands above
+// the water. Seen radiance is dimmed as the sharp beam is, by a + b (1 - f): light scattered nearly forward stays in it.
+#include "frame/lighting.io.glsl"
+#include "water/paths.io.glsl"
+#include "water/surface.lib.glsl"
+#include "water/surface.shared.h"
+#ifdef FOAM
+#include "water/surface_foam.glsl"
+#endif
+
+layout(binding = SHOAL_UNIT_PASS + 0) uniform sampler2D radianceTexture;
+layout(binding = SHOAL_UNIT_PASS + 1) uniform sampler2D opaqueDepth;
+layout(binding = SHOAL_UNIT_PASS + 2) uniform sampler2D inscatterTexture;
+layout(binding = SHOAL_UNIT_PASS + 3) uniform sampler2D spreadTexture;
+layout(binding = SHOAL_UNIT_PASS + 4) uniform sampler2D airRadiance;    // what stands above the water
+layout(binding = SHOAL_UNIT_PASS + 5) uniform sampler2D airDepth;
+layout(binding = SHOAL_UNIT_PASS + 6) uniform sampler2D waterRadiance;  // what is under it
+layout(binding = SHOAL_UNIT_PASS + 7) uniform sampler2D waterDepth;
+
+layout(location = 0) out vec4 outRadiance;
+
+const float kTurn = 6.28318530718;
+const float kBrightest = 40000.0;     // of half floats' 65504
+const float kFirstLook = 20.0;        // metres along a mirrored ray
+const int kLooks = 4;
+
+// Sharp to wide: spread is the standard deviation of direction, radians.
+vec3 skyRadiance(vec3 d, float spread) {
+    vec2 latLong = vec2(0.5 + atan(d.x, -d.z) / kTurn + lightBlock.environment.w,
+                        acos(clamp(d.y, -1.0, 1.0)) / (0.5 * kTurn));
+    float texels = spread * float(textureSize(sharpEnvironment, 0).x) * (2.5 / kTurn);
+    float level = max(log2(max(texels, 1e-6)), max(lightBlock.backgroundLevel.y, 0.0));
+    return textureLod(sharpEnvironment, latLong, level).rgb * lightBlock.environment.x;
+}
+
+// What a picture from a mirrored eye shows along a ray: radiance, and in a how much of the ray meets something; m: where.
+struct Mirrored {
+    vec4 radiance;
+    float lengthM;
+};
+
+Mirrored lookUp(int which, sampler2D radiances, sampler2D depths, vec3 start, vec3 direction, bool ask) {
+    Mirrored m = Mirrored(vec4(0.0), kFarthestWater);
+    mat4 clipFromWorld = surfaceBlock.clipFromWorld[which];
+    vec2 pixels = surfaceBlock.mirrorSize[which].xy;
+    vec4 clip0 = clipFromWorld * vec4(start, 1.0), clip1 = clipFromWorld * vec4(direction, 0.0);
+    float depth0 = dot(surfaceBlock.depthRow[which], vec4(start, 1.0));
+    float depth1 = dot(surfaceBlock.depthRow[which], vec4(direction, 0.0));
+    float t = kFirstLook;
+    vec2 place = vec2(0.0);
+    // Where the ray is as deep as what is seen there; level water has it at the first look.
+    int looks = ask && surfaceBlock.mirrorSize[which].z > 0.0 ? kLooks : 0;
+    for (int i = 0; i < looks; ++i) {
+        vec4 clip = clip0 + clip1 * t;
+        place = clamp((clip.xy / max(clip.w, 1e-3) * 0.5 + 0.5) * pixels, vec2(0.5), pixels - 0.5);
+        float seen = texelFetch(depths, ivec2(place), 0).x;
+        float next = seen > 0.0 ? (seen - depth0) / (abs(depth1) < 1e-4 ? 1e-4 : depth1) : kFarthestWater;
+        next = clamp(next, 0.0, kFarthestWater);
+        if (abs(next - t) < 1e-3 * t) break;
+        t = i == kLooks - 1 ? t : next;
+    }
+    if (looks > 0) {
+        vec2 corner = floor(place - 0.5), f = place - 0.5 - corner;
+        for (int i = 0; i < 4; ++i) {
+            ivec2 at = clamp(ivec2(corner) + ivec2(i & 1, i >> 1), ivec2(0), ivec2(pixels) - 1);
+            float share = ((i & 1) != 0 ? f.x : 1.0 - f.x) * (i > 1 ? f.y : 1.0 - f.y);
+            float there = texelFetch(depths, at, 0).x > 0.0 ? share : 0.0;
+            m.radiance += vec4(texelFetch(radiances, at, 0).rgb, 1.0) * there;
+        }
+        m.lengthM = t;
+    }
+    return m;
+}
+
+// Smooth light that a stretch of water scatters to its end [closed form; water of one brightness, that of the depth
+// where the stretch begins]: for paths that no shafts were marched along.
+vec3 veil(vec3 start, float lengthM, vec3 lost) {
+    float deep = max(waterBlock.shape.x - start.y, 0.0);
+    vec3 sun = waterBlock.sunIrradiance.rgb * (-waterBlock.sunRefracted.y * waterBlock.sunRefracted.w);
+    vec3 down = 0.934 * waterBlock.skyIrradiance.rgb * exp(-waterBlock.diffuseAttenuation.rgb * deep) +
+                sun * exp(-waterBlock.sunDiffuseAttenuation.rgb * deep);
+    vec3 scattered = waterBlock.beamScattering.rgb / max(waterBlock.beamAttenuation.rgb, vec3(1e-9));
+    return down * scattered * (1.0 - lost) * (0.5 / kTurn);
+}
+
+vec3 dimming(float lengthM) { return exp(-waterBlock.beamAttenuation.rgb * lengthM); }
+
+// Radiance along a ray in the air, without the sun: what stands there, else the sky.
+vec4 airAlong(vec3 start, vec3 direction, float spread, bool ask) {
+    Mirrored m = lookUp(0, airRadiance, airDepth, start, direction, ask);
+    vec3 up = normalize(vec3(direction.x, max(abs(direction.y), 1e-3), direction.z));
+    return vec4(skyRadiance(up, spread) * (1.0 - m.radiance.a) + m.radiance.rgb, 1.0 - m.radiance.a);
+}
+
+void main() {
+    ivec2 at = ivec2(gl_FragCoord.xy);
+    vec2 uv = gl_FragCoord.xy / vec2(textureSize(opaqueDepth, 0));
+    float surface = texelFetch(waterSurfaceDepth, at, 0).x;
+    vec4 traced = texelFetch(waterPathTexture, at, 0);
+    PixelRay ray = rayOfPixel(gl_FragCoord.xy);
+    float stepM = length(ray.step);
+    vec3 direction = ray.step / stepM;
+
+    // The surface: normal to the ray's side, what is mirrored and what passes.
+    float index = waterBlock.shape.y, index2 = index * index;
+    bool meets = surface != 0.0, enters = surface > 0.0;
+    vec3 normal = decodeNormal(texelFetch(waterSurfaceNormal, at, 0).xy) * (enters ? 1.0 : -1.0);
+    vec3 start = ray.origin + ray.step * abs(surface);
+    float variance = 0.5 * texelFetch(spreadTexture, at, 0).x + surfaceBlock.look.x;
+    float cosSeen = clamp(-dot(direction, normal), 1e-3, 1.0);
+    // From afar the sides of waves that face the eye are seen more than the others.
+    vec3 levelToEye = vec3(-direction.x, 0.0, -direction.z);
+    vec3 seenNormal = normalize(normal + (enters ? levelToEye * (variance / max(cosSeen, sqrt(variance) + 1e-6)) : vec3(0.0)));
+    vec3 mirrored = reflect(direction, seenNormal);
+    vec3 bent = refractedDirection(direction, normal, enters ? index : 1.0 / index);
+    float reflectance;
+    vec3 air;   // where the ray goes in the air
+    if (enters) {
+        reflectance = roughReflectance(cosSeen, index, variance);
+        air = mirrored;
+    } else {
+        // Waves too small to see smooth the window's rim: mean of three slopes.
+        float tilt = 1.2247 * sqrt(variance), passes = 0.0;
+        float sine = sqrt(1.0 - cosSeen * cosSeen);
+        for (int i = -1; i <= 1; ++i) {
+            float c = clamp((cosSeen + float(i) * tilt * sine) / sqrt(1.0 + tilt * tilt * float(i * i)), 0.0, 1.0);
+            float sine2 = (1.0 - c * c) * index2;
+            passes += sine2 < 1.0 ? fresnelTransmittance(sqrt(1.0 - sine2), index) : 0.0;
+        }
+        reflectance = 1.0 - passes / 3.0;
+        vec3 rim = normalize(vec3(direction.x, 1e-3, direction.z));
+        air = dot(bent, bent) > 0.5 ? bent : rim;
+    }
+    float spread = (enters ? 2.0 : index) * sqrt(variance);
+    vec4 fromAir = airAlong(start, air, spread, meets);
+
+    // The sun, a wide lobe: its disc and the slopes together.
+    vec3 toSun = lightBlock.toSun.xyz;
+    float sunVariance = variance + lightBlock.sunIrradiance.w * lightBlock.sunIrradiance.w * 0.25;
+    float cosSun = dot(toSun, normal) * (enters ? 1.0 : -1.0), sunPart = 0.0;
+    vec3 half_ = enters ? normalize(toSun - direction) : normalize(index * direction - toSun);
+    if (enters) {
+        float cosH = dot(half_, normal), cosTilted = clamp(dot(half_, toSun), 0.0, 1.0);
+        sunPart = (1.0 - fresnelTransmittance(cosTilted, index)) * slopeDensity(cosH, sunVariance) /
+                  (4.0 * seenCosine(cosSeen, variance));
+        sunPart = cosH > 0.0 && cosSun > 0.0 ? sunPart : 0.0;
+    } else {
+        // Normal that bends the sun's ray into this one, on the air's side.
+        vec3 up = half_.y < 0.0 ? -half_ : half_;
+        float cosH = -dot(up, normal), cosIn = max(dot(up, toSun), 0.0), cosOut = max(dot(up, direction), 0.0);
+        float together = index * cosOut - cosIn;
+        sunPart = cosIn * cosOut * index2 * fresnelTransmittance(cosIn, index) * slopeDensity(cosH, sunVariance) /
+                  (seenCosine(cosSeen, variance) * max(together * together, 1e-6));
+        sunPart = cosH > 0.0 ? sunPart : 0.0;
+    }
+    vec3 sun = min(lightBlock.sunIrradiance.rgb * (lightBlock.toSun.w * sunPart * fromAir.a), vec3(kBrightest));
+
+    // The stretch of water.
+    vec3 lost = dimming(traced.z);
+    vec2 place = uv + traced.xy;
+    vec4 opaque = textureLod(radianceTexture, place, 0.0);
+    vec3 inscatter = texelFetch(inscatterTexture, at, 0).rgb;
+    if (surfaceBlock.grid.w == 0.0) inscatter = veil(enters ? start : ray.origin, traced.z, lost);
+
+    vec3 radiance;
+    if (enters) {
+        radiance = reflectance * fromAir.rgb + sun + (1.0 - reflectance) / index2 * (opaque.rgb * lost + inscatter);
+#ifdef FOAM
+        radiance = withFoam(radiance, start, normal, -bent.y * traced.z, traced.z);
+#endif
+    } else if (meets) {
+        Mirrored under = lookUp(1, waterRadiance, waterDepth, start, mirrored, true);
+        vec3 lostUnder = dimming(under.lengthM);
+        vec3 fromWater = under.radiance.rgb * lostUnder + veil(start, under.lengthM, lostUnder);
+        vec3 atSurface = (1.0 - reflectance) * index2 * fromAir.rgb + sun + reflectance * fromWater;
+        radiance = atSurface * lost + inscatter;
+    } else {
+        radiance = traced.z > 0.0 ? opaque.rgb * lost + inscatter : opaque.rgb;
+    }
+    outRadiance = vec4(min(radiance, vec3(65000.0)), meets || traced.z > 0.0 ? 1.0 : opaque.a);
+}
