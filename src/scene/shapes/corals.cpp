@@ -72,20 +72,20 @@ void addBranchingCoral(Part& part, const Frame& base, float size, Vec3 color, Di
     for (std::size_t n = 0; n < open.size(); ++n) {
         const Branch b = open[n];
         Tube tube;
-        tube.around = b.level < 2 ? 7 : 6;
+        tube.around = b.level < 2 ? 7 : 5;
         const float depth = float(b.level) / 3;
         tube.root = color * (0.55f + 0.35f * depth);
         tube.tip =
             lerp(color * (0.85f + 0.2f * depth), Vec3{0.95f, 0.92f, 0.85f}, b.level == 3 ? 0.65f : 0.12f * depth);
         Vec3 at = b.from, direction = b.direction;
-        constexpr int kSteps = 3;
+        const int steps = b.level < 2 ? 3 : 2;
         std::vector<Vec3> headings;
-        for (int i = 0; i <= kSteps; ++i) {
+        for (int i = 0; i <= steps; ++i) {
             tube.points.push_back(at);
-            tube.radii.push_back(b.radius * (1 - 0.32f * float(i) / kSteps));
+            tube.radii.push_back(b.radius * (1 - 0.32f * float(i) / float(steps)));
             direction = normalize(jittered(direction, 0.16f, dice) + Vec3{0, 0.10f, 0});
             headings.push_back(direction);
-            at += direction * (b.length / kSteps);
+            at += direction * (b.length / float(steps));
         }
         addTube(part, base, tube);
         if (b.level == 3) continue;
@@ -94,7 +94,7 @@ void addBranchingCoral(Part& part, const Frame& base, float size, Vec3 color, Di
         for (int i = 0; i < children; ++i) {
             const Vec3 axis = headings.back(), side = anyAcross(axis), other = cross(axis, side);
             const float a = spin + 2 * kPi * float(i) / float(children), spread = dice.range(0.45f, 0.8f);
-            const std::size_t joint = i == 0 ? 3 : 2;
+            const std::size_t joint = tube.points.size() - (i == 0 ? 1 : 2);
             open.push_back({tube.points[joint], normalize(axis + (side * std::cos(a) + other * std::sin(a)) * spread),
                             b.length * dice.range(0.62f, 0.85f), tube.radii[joint] * 0.82f, b.level + 1});
         }
@@ -163,7 +163,7 @@ void addTableCoral(Part& part, const Frame& base, float size, Vec3 color, Dice& 
 }
 
 void addBrainCoral(Part& part, const Frame& base, float size, Vec3 color, Dice& dice) {
-    Blob blob = makeIcosphere(4);
+    Blob blob = makeIcosphere(3);
     const std::uint32_t seed = std::uint32_t(dice.below(1 << 20));
     for (Vec3& p : blob.positions) {
         const float bump = 1 + 0.09f * fractal3(p * 1.6f, 2, seed);
