@@ -28,6 +28,7 @@ Result<Water> Water::create(gl::Device& device, WaterSetup setup) {
     SHOAL_TRY_ASSIGN(LightViews views, LightViews::create(device, setup.lightViews));
     SHOAL_TRY_ASSIGN(Photons photons,
                      Photons::create(device, {setup.lightViews.resolution, setup.lightViews.maxSlots}));
+    setup.shafts.viewResolution = setup.lightViews.resolution;
     SHOAL_TRY_ASSIGN(Shafts shafts, Shafts::create(device, setup.shafts));
     SHOAL_TRY_ASSIGN(Surface surface, Surface::create(device));
     SHOAL_TRY(gpuWaves.update(waves));
