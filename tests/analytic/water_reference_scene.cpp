@@ -8,6 +8,7 @@
 #include <shoal/water/reference.h>
 
 #include "support/known_waves.h"
+#include "water/reference/eye_rays.h"
 
 namespace shoal::water {
 namespace {
@@ -204,6 +205,164 @@ TEST(WaterReferenceScene, StopsWhenAsked) {
     const auto image = referenceCaustics(floorAt(3), water.body, water.lights, viewFromAbove(8, 8, 2), options);
     ASSERT_FALSE(image);
     EXPECT_EQ(image.error().kind, ErrorKind::cancelled);
+}
+
+// Scattering of the note's check values, the same in all channels.
+void makeMurky(Water& water) {
+    const analytic::ShaftMedium medium;
+    water.body.optics.scattering = Vec3{1, 1, 1} * float(medium.scattering);
+    water.body.optics.absorption = Vec3{1, 1, 1} * float(medium.attenuation - medium.scattering);
+    water.body.optics.anisotropy = float(medium.anisotropy);
+    water.sun.irradiance = {1, 2, 3};
+}
+
+Image inscatter(const ReferenceScene& scene, const Water& water, const light::View& view, std::int64_t rays,
+                int steps = 512) {
+    ReferenceOptions options;
+    options.rays = rays;
+    options.steps = steps;
+    auto image = referenceInscatter(scene, water.body, water.lights, view, options);
+    EXPECT_TRUE(image) << (image ? "" : image.error().message);
+    return image ? *std::move(image) : Image(view.width, view.height, 3);
+}
+
+// The view ray of a pixel's middle, down to a floor at `depth` (or up to the level).
+analytic::ShaftRay rayOf(const light::View& view, int x, int y, double floorDepth) {
+    const EyeRays::Ray ray = EyeRays(view).through(x + .5, y + .5);
+    analytic::ShaftRay shaft{-view.eye.y, view.eye.x, ray.direction.x, ray.direction.y, ray.direction.z, 0};
+    shaft.length =
+        ray.direction.y < 0 ? (floorDepth - shaft.eyeDepth) / -ray.direction.y : shaft.eyeDepth / ray.direction.y;
+    return shaft;
+}
+
+TEST(WaterReferenceScene, ShaftsInLevelWater) {
+    for (const double zenith : {0.0, 30 * kDegree}) {
+        Water water(levelWater(), zenith);
+        makeMurky(water);
+        for (const float vy : {-.8f, -.5f, .5f, .9f}) {
+            const Vec3 eye{.3f, -2, 0}, direction{std::sqrt(1 - vy * vy) * .6f, vy, std::sqrt(1 - vy * vy) * .8f};
+            const light::View view = light::makeView(light::cameraLookingAt(eye, eye + direction, radians(2)), 4, 4);
+            const Image image = inscatter(floorAt(6), water, view, 20'000);
+            for (int y = 0; y < 4; ++y)
+                for (int x = 0; x < 4; ++x) {
+                    const double expected = analytic::flatShaft({}, zenith, rayOf(view, x, y, 6));
+                    for (int channel = 0; channel < 3; ++channel)
+                        EXPECT_NEAR(image.at(x, y)[channel], (channel + 1) * expected, 2e-3 * (channel + 1) * expected)
+                            << zenith << " " << vy;
+                }
+        }
+    }
+}
+
+// The three rays of the note, whose ends are level and 4 and 10 m long: a wall stands there.
+TEST(WaterReferenceScene, ShaftsOfTheNote) {
+    Water water(levelWater());
+    makeMurky(water);
+    struct Row {
+        float vy, length;
+        double expected;
+    };
+    for (const Row& row : {Row{0, 10, .00155893}, Row{.5f, 4, .00276248}, Row{-.5f, 10, .00066805}}) {
+        const Vec3 eye{0, -2, 0}, direction{std::sqrt(1 - row.vy * row.vy), row.vy, 0};
+        const Vec3 end = eye + direction * row.length;
+        ReferenceScene scene;  // a small plate across the ray
+        const Vec3 across{-direction.y, direction.x, 0};
+        if (row.vy <= 0)  // the other one ends at the surface
+            addRectangle(scene, end - across * .02f - Vec3{0, 0, .2f}, across * .04f, {0, 0, .4f});
+        const light::View view = light::makeView(light::cameraLookingAt(eye, end, radians(.1f)), 1, 1);
+        EXPECT_NEAR(inscatter(scene, water, view, 20'000).at(0, 0)[0], row.expected, 2e-3 * row.expected) << row.vy;
+    }
+}
+
+// Before the first focus pixel by pixel; past it, where a ray through a fold is unbounded, in the mean.
+TEST(WaterReferenceScene, ShaftsUnderASinusoid) {
+    for (const auto& [zenith, depth] : {std::pair{0.0, 6.0}, {30 * kDegree, 4.5}, {0.0, 12.0}}) {
+        Water water(sinusoidS1(), zenith);
+        makeMurky(water);
+        const light::View view =
+            light::makeView(light::cameraLookingAt({.2f, -2, 0}, {1.2f, -2.5f, .3f}, radians(40)), 9, 6);
+        const Image image = inscatter(floorAt(float(depth)), water, view, 4'000'000, 1024);
+        const analytic::Sinusoid s{.zenithAngle = zenith};
+        double worst = 0, sum = 0, expectedSum = 0;
+        for (int y = 0; y < view.height; ++y)
+            for (int x = 0; x < view.width; ++x) {
+                const analytic::ShaftRay ray = rayOf(view, x, y, depth);
+                if (std::abs(ray.vy) < .1) continue;  // cut off at a transmittance of 1e-4
+                const double expected = analytic::sinusoidShaft({}, s, ray, 600, depth > 8 ? .04 : 0);
+                worst = std::max(worst, std::abs(image.at(x, y)[0] / expected - 1));
+                sum += image.at(x, y)[0], expectedSum += expected;
+            }
+        if (depth < 8) {
+            EXPECT_LT(worst, 5e-3) << zenith;
+        }
+        EXPECT_NEAR(sum, expectedSum, 5e-3 * expectedSum) << zenith << " " << depth;
+    }
+}
+
+// A wide plate above the water leaves the water below it dark; one with its edge over the ray halves it.
+TEST(WaterReferenceScene, PlatesCutShafts) {
+    Water water(levelWater());
+    makeMurky(water);
+    const light::View view = light::makeView(light::cameraLookingAt({0, -2, 0}, {4, -2, 0}, radians(.2f)), 1, 1);
+    for (const bool above : {true, false}) {
+        const float height = above ? 1 : -1;
+        ReferenceScene scene;
+        addRectangle(scene, {8, -4, -2}, {0, 4, 0}, {0, 0, 4});  // the end of the path
+        const double whole = inscatter(scene, water, view, 40'000).at(0, 0)[0];
+        const double first = analytic::flatShaft({}, 0, {2, 0, 1, 0, 0, 4});
+        ReferenceScene half = scene, dark = scene;
+        addRectangle(half, {4, height, -3}, {10, 0, 0}, {0, 0, 6});
+        addRectangle(dark, {-9, height, -9}, {20, 0, 0}, {0, 0, 18});
+        EXPECT_NEAR(inscatter(half, water, view, 40'000).at(0, 0)[0], first, .01 * first) << above;
+        EXPECT_LT(inscatter(dark, water, view, 40'000).at(0, 0)[0], 1e-9 * whole) << above;
+    }
+}
+
+// Under the sun's disc, light and direction are spread over it: the mean over 16 directions of level water.
+TEST(WaterReferenceScene, ShaftsUnderTheSunsDisc) {
+    Water water(levelWater());
+    makeMurky(water);
+    water.sun.discHalfAngle = .05f;
+    const light::View view = light::makeView(light::cameraLookingAt({0, -2, 0}, {1, -2.5f, 0}, radians(1)), 2, 2);
+    const Image image = inscatter(floorAt(5), water, view, 400'000, 1024);
+    for (int y = 0; y < 2; ++y)
+        for (int x = 0; x < 2; ++x) {
+            const double expected = analytic::flatShaft({}, 0, rayOf(view, x, y, 5));
+            EXPECT_NEAR(image.at(x, y)[0], expected, .01 * expected);
+        }
+}
+
+// A torch in the water, seen across: L = integral of b p I exp(-c (r + t)) / r^2.
+TEST(WaterReferenceScene, TorchInTheWater) {
+    Water water(levelWater());
+    makeMurky(water);
+    light::PunctualLight torch;
+    torch.position = {3, -4, 0};
+    torch.intensity = {5, 5, 5};
+    water.lights.sun = nullptr;
+    water.lights.punctual = std::span(&torch, 1);
+    const light::View view = light::makeView(light::cameraLookingAt({0, -3, 0}, {1, -3, 0}, radians(.1f)), 1, 1);
+    ReferenceScene scene;
+    addRectangle(scene, {8, -4, -2}, {0, 4, 0}, {0, 0, 4});
+    double expected = 0;
+    constexpr int kSteps = 20000;
+    for (int i = 0; i < kSteps; ++i) {
+        const double t = (i + .5) * 8 / kSteps, r = std::hypot(3 - t, 1.0), cosine = (3 - t) / r;
+        expected +=
+            .08 * analytic::henyeyGreenstein(.924, cosine) * 5 / (r * r) * std::exp(-.13 * (r + t)) * 8 / kSteps;
+    }
+    EXPECT_NEAR(inscatter(scene, water, view, 1000).at(0, 0)[0], expected, 2e-3 * expected);
+}
+
+TEST(WaterReferenceScene, ShaftsAreTheSameForAnyThreadCount) {
+    Water water(test::patchP6(), .4);
+    makeMurky(water);
+    const light::View view = light::makeView(light::cameraLookingAt({0, -2, 0}, {1, -2.5f, 0}, radians(30)), 24, 16);
+    const auto draw = [&](int threads) {
+        const ThreadLimit limit(threads);
+        return inscatter(floorAt(4), water, view, 100'000, 64);
+    };
+    EXPECT_EQ(draw(1).pixels, draw(0).pixels);
 }
 
 }  // namespace

@@ -51,10 +51,10 @@ LitEntry SurfaceLight::at(double x, double z, std::uint32_t column, std::uint32_
     if (travel.y >= 0) return lit;
     const Entry entry = enterWater(wave, x, z, travel, body_.optics.index);
     if (entry.incident <= 0 || entry.refracted.y >= 0) return lit;
+    lit.direction = entry.refracted;
     if (shadedByWaves(*body_.waves, bounds_, entry.position, -travel, distance)) return lit;
     const double off = leave(lit.position);
     if (source_.castsShadow && triangles_.blocked(lit.position, -travel, off, distance - off)) return lit;
-    lit.direction = entry.refracted;
     lit.flux = widened(irradiance) * (weight * entry.incident * entry.transmitted);
     return lit;
 }

@@ -24,7 +24,7 @@ std::vector<LightSource> lightsAbove(const Body& body, const BodyLights& lights)
 // share that enters, per area of the level plane. Flux 0 where nothing arrives: outside the water, in the shadow of
 // waves or of what stands above the water.
 struct LitEntry {
-    DVec3 position, direction;  // world; direction in the water, unit, down
+    DVec3 position, direction;  // world; direction in the water, unit, down; (0, 0, 0) where the surface faces away
     DVec3 flux;                 // W per m2 of the level plane, R G B
     bool isLit() const { return flux.x > 0 || flux.y > 0 || flux.z > 0; }
 };
