@@ -154,7 +154,7 @@ void addCosine(WaveField::State& state, bool circular) {
         state.moving.push_back({amplitude, k, 0, 0, std::sqrt(kGravity * k)});
     }
     if (noise > 0 && p.amplitude > 0)
-        state.source = makePerlinNoise({double(p.amplitude) * noise, 0.5 * double(p.wavelength), p.seed});
+        state.source = makePerlinNoise({double(p.amplitude) * noise, double(p.wavelength) / 3, p.seed});
 }
 
 }  // namespace
