@@ -81,7 +81,7 @@ TEST(Media, AbsorbNoMoreThanTheyAttenuate) {
 }
 
 TEST(Media, TabulatedRedOfTwoTypesIsAboveKd) {
-    // The published red of 3C and 5C, which is why ours differs (docs/decisions/0007-jerlov-outliers.md).
+    // The published red of 3C and 5C, which is why ours differs (docs/decisions/0008-jerlov-outliers.md).
     for (const auto& [name, published] : {std::pair{"jerlov-3C", .508f}, {"jerlov-5C", 4.638f}})
         for (const NamedMedium& m : namedMedia())
             if (std::string(name) == m.name) {
