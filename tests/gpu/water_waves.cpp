@@ -191,5 +191,35 @@ TEST_F(WaterGpu, OpticsAreThoseOfTheCpu) {
         }
 }
 
+TEST(WaterBlock, HoldsTheSunUnderWater) {
+    OpticsParams params;
+    params.absorption = {0.3f, 0.05f, 0.01f}, params.scattering = {0, 0, 0};
+    Body body;
+    body.optics = *resolveOptics(params);
+    body.params.level = 2;
+    light::Sun sun;
+    const double zenith = kPiD / 3;
+    sun.toSun = {float(std::sin(zenith)), float(std::cos(zenith)), 0};
+    BodyLights lights;
+    lights.sun = &sun;
+    const WaterBlock block = makeWaterBlock(body, lights);
+    EXPECT_EQ(block.shape.x, 2);
+    EXPECT_EQ(block.shape.w, 0);
+    EXPECT_NEAR(block.sunRefracted.y, -0.760207f, 1e-6f);
+    EXPECT_NEAR(block.sunRefracted.x, -float(std::sin(zenith) / 1.333), 1e-6f);
+    EXPECT_NEAR(block.sunRefracted.w, 0.940309f, 1e-6f);
+    EXPECT_EQ(block.toSun.w, 1);
+    EXPECT_FLOAT_EQ(block.beamAttenuation.w, 0.01f);
+    // Nothing scatters: Kd at the sun's angle is the beam's own loss a metre of depth.
+    EXPECT_NEAR(block.sunDiffuseAttenuation.x, 0.3f / 0.760207f, 1e-5f);
+    EXPECT_FLOAT_EQ(block.diffuseAttenuation.x, 0.3f);
+
+    sun.toSun = {0.6f, -0.8f, 0};
+    const WaterBlock night = makeWaterBlock(body, lights);
+    EXPECT_EQ(night.toSun.w, 0);
+    EXPECT_EQ(night.sunIrradiance, Vec4{});
+    EXPECT_EQ(night.sunRefracted.y, -1);
+}
+
 }  // namespace
 }  // namespace shoal::water

@@ -68,6 +68,8 @@ public:
     // reflected ones), and one of what is above it, along the light's own direction. Purpose::photonDepth.
     std::span<frame::NeededView> neededViews();
     std::span<const LightSlot> slots() const;
+    // Whether anything of the scene may stand between light and water (the air layers are drawn).
+    bool airDrawn() const;
     // Binds SHOAL_BLOCK_LIGHT_SPACE and the depth textures that light_space.io.glsl names.
     void bind() const;
 

@@ -10,6 +10,7 @@
 namespace shoal::water {
 namespace {
 
+constexpr float kSharpest = 0.99f;   // Henyey-Greenstein's g stays within
 constexpr double kLeastPeak = 1e-7;  // sin^2 of half the angle: the function grows without end towards 0
 constexpr const char* kChannels[3] = {"red", "green", "blue"};
 
@@ -40,14 +41,16 @@ Result<Vec3> chosen(const char* field, Vec3 given, Vec3 medium) {
     return given;
 }
 
-void choosePhase(const OpticsParams& params, Optics& optics) {
+Result<void> choosePhase(const OpticsParams& params, Optics& optics) {
     if (params.phase == "henyey-greenstein") {
         const float g = params.anisotropy;
         const float f = params.forwardFraction >= 0 ? params.forwardFraction : (g > 0 ? g * g : 0.0f);
         optics.forwardFraction = f;
-        // f above g would leave a function that scatters backwards.
-        optics.anisotropy = std::clamp((g - f) / (1 - f), -0.99f, 0.99f);
-        return;
+        optics.anisotropy = (g - f) / (1 - f);
+        if (optics.anisotropy < -kSharpest)
+            return badInput("water.forwardFraction is " + number(f) + ", expected at most " +
+                            number((g + kSharpest) / (1 + kSharpest)) + " for an anisotropy of " + number(g));
+        return {};
     }
     optics.phase = Optics::Phase::fournierForand;
     const FournierForand function = fournierForandOf(double(params.backscatter));
@@ -58,6 +61,7 @@ void choosePhase(const OpticsParams& params, Optics& optics) {
     const PhaseMoments rest = momentsOf(function, peak);
     optics.forwardFraction = float(1 - rest.total / all.total);
     optics.ffPeak = float(peak), optics.ffScale = float(1 / rest.total), optics.anisotropy = float(rest.meanCosine);
+    return {};
 }
 
 }  // namespace
@@ -101,7 +105,7 @@ Result<Optics> resolveOptics(const OpticsParams& params) {
                             ", expected at least the absorption " + number(absorption));
     }
     optics.index = params.index;
-    choosePhase(params, optics);
+    if (Result<void> ok = choosePhase(params, optics); !ok) return ok.error();
     return optics;
 }
 

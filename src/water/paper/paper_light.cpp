@@ -58,14 +58,12 @@ std::array<Vec3, 8> frustumCorners(const light::View& eye, float farZ) {
     return corners;
 }
 
-// Where light is seen: the water over the scene, from its bottom to the surface (god rays need nothing to fall on), and
-// not farther from the water's edge than it is deep.
+// Where light is seen: the water over the scene, from its bottom to the surface (god rays need nothing to fall on).
 Bounds waterBounds(const Body& body, const Bounds& scene, float waveHeight) {
-    Bounds b = scene;
-    b.hi.y = body.params.level + waveHeight;
-    const float reach = body.params.level - b.lo.y;
-    b.lo.x = std::max(b.lo.x, body.params.areaMin.x - reach), b.hi.x = std::min(b.hi.x, body.params.areaMax.x + reach);
-    b.lo.z = std::max(b.lo.z, body.params.areaMin.y - reach), b.hi.z = std::min(b.hi.z, body.params.areaMax.y + reach);
+    const BodyParams& p = body.params;
+    Bounds b;
+    b.lo = {std::max(scene.lo.x, p.areaMin.x), scene.lo.y, std::max(scene.lo.z, p.areaMin.y)};
+    b.hi = {std::min(scene.hi.x, p.areaMax.x), p.level + waveHeight, std::min(scene.hi.z, p.areaMax.y)};
     if (b.lo.x > b.hi.x || b.lo.y > b.hi.y || b.lo.z > b.hi.z) return {};
     return b;
 }

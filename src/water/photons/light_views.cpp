@@ -25,6 +25,7 @@ struct LightViews::State {
     gl::BlockBuffer<LightSpaceBlock> block;
     std::vector<LightSlot> slots;
     std::vector<frame::NeededView> views;
+    bool airDrawn = false;
 };
 
 namespace {
@@ -128,6 +129,7 @@ void LightViews::prepare(const frame::Context& context, const LightViewParams& p
     const std::vector<SlotFit> fits = fitSlots(context.view, s.setup, params, body, lights, sceneBounds);
     s.slots.clear();
     s.views.clear();
+    s.airDrawn = false;
     LightSpaceBlock block{};
     block.counts = {float(fits.size()), float(s.setup.resolution), 0, 0};
     for (std::size_t i = 0; i < fits.size(); ++i) {
@@ -137,6 +139,7 @@ void LightViews::prepare(const frame::Context& context, const LightViewParams& p
         block.slots[i] = fit.record;
         ask(s, s.litLayers, s.litDepth, 2 * index, fit.lit, -1, 0);
         ask(s, s.litLayers, s.litDepth, 2 * index + 1, fit.lit, 2 * index, fit.peelGap);
+        s.airDrawn = s.airDrawn || fit.airDrawn;
         if (fit.airDrawn) ask(s, s.airLayers, s.airDepth, index, fit.air, -1, 0);
     }
     fillInner(fits, s.setup.resolution, block);
@@ -148,6 +151,8 @@ void LightViews::prepare(const frame::Context& context, const LightViewParams& p
 
 std::span<frame::NeededView> LightViews::neededViews() { return state_->views; }
 std::span<const LightSlot> LightViews::slots() const { return state_->slots; }
+
+bool LightViews::airDrawn() const { return state_->airDrawn; }
 
 void LightViews::bind() const {
     const State& s = *state_;

@@ -106,8 +106,8 @@ Seen whatIsSeen(const light::View& eye, const Side& side, const Bounds& box, dou
 Square boxInLightSpace(const Side& side, const Bounds& box) {
     Vec2 lo{1e30f, 1e30f}, hi{-1e30f, -1e30f};
     for (int i = 0; i < 8; ++i) {
-        const Vec2 s = side.slide({(i & 1) ? box.hi.x : box.lo.x, (i & 2) ? box.hi.y : box.lo.y,
-                                   (i & 4) ? box.hi.z : box.lo.z});
+        const Vec2 s =
+            side.slide({(i & 1) ? box.hi.x : box.lo.x, (i & 2) ? box.hi.y : box.lo.y, (i & 4) ? box.hi.z : box.lo.z});
         lo = {std::min(lo.x, s.x), std::min(lo.y, s.y)};
         hi = {std::max(hi.x, s.x), std::max(hi.y, s.y)};
     }
@@ -194,7 +194,8 @@ Vec2 driftOf(Vec3 d, double gx, double gz, double index, bool up) {
     if (cosIn <= 0) return {};
     const double cosOut = std::sqrt(1 - (1 - cosIn * cosIn) / (index * index));
     const double bend = (up ? 2 * cosIn : cosIn / index - cosOut) / slant, scale = up ? 1 : 1 / index;
-    const double x = double(d.x) * scale - bend * gx, y = double(d.y) * scale + bend, z = double(d.z) * scale - bend * gz;
+    const double x = double(d.x) * scale - bend * gx, y = double(d.y) * scale + bend,
+                 z = double(d.z) * scale - bend * gz;
     if ((up ? y : -y) < 0.05) return {};
     return {float(x / std::abs(y)), float(z / std::abs(y))};
 }
@@ -339,8 +340,8 @@ SlotFit makeSlot(const Surroundings& around, const Side& side, const Square& squ
 
     const float half = float(0.5 * square.side);
     const Vec2 middle{slot.origin.x + half, slot.origin.y + half};
-    const Mat4 lit = lightMatrix(side, side.mean, side.apparent, side.up, side.nearY(), side.farY(), middle,
-                                 double(half), r.height);
+    const Mat4 lit =
+        lightMatrix(side, side.mean, side.apparent, side.up, side.nearY(), side.farY(), middle, double(half), r.height);
     fit.lit = viewOf(lit, middle, side.nearY(), side.up, side.lamp, resolution);
     fit.peelGap = float(kGapM / (side.top - side.bottom));
 
@@ -351,8 +352,8 @@ SlotFit makeSlot(const Surroundings& around, const Side& side, const Square& squ
     const Vec2 airMean = side.lamp ? Vec2{} : Vec2{d.x / -d.y, d.z / -d.y};
     fit.airDrawn = around.sceneTop > airBottom && airTop > airBottom;
     if (fit.airDrawn) {
-        const Mat4 air = lightMatrix(side, airMean, side.toLight, false, airTop, airBottom, middle, double(half),
-                                     r.airHeight);
+        const Mat4 air =
+            lightMatrix(side, airMean, side.toLight, false, airTop, airBottom, middle, double(half), r.airHeight);
         fit.air = viewOf(air, middle, airTop, false, side.lamp, resolution);
     }
     r.flags = {float(slot.light), side.up ? 1.0f : 0.0f, float(cascade), fit.airDrawn ? 1.0f : 0.0f};
@@ -404,7 +405,8 @@ std::vector<SlotFit> fitSlots(const light::View& eye, const LightViewSetup& setu
         around.waveHeight = bounds.height, around.slope = bounds.slope;
     }
     around.sceneTop = double(sceneBounds.hi.y);
-    const double level = double(body.params.level), crest = level + around.waveHeight, trough = level - around.waveHeight;
+    const double level = double(body.params.level), crest = level + around.waveHeight,
+                 trough = level - around.waveHeight;
     const Bounds below = cut(sceneBounds, body.params, -1e30, crest);
     const Bounds above = cut(sceneBounds, body.params, trough, 1e30);
     int group = 0;

@@ -5,7 +5,7 @@
 
 #include "water/waves.shared.h"
 
-// Two layers a tile: (h, hx, hz, hx^2 + hz^2) and (hxx, hxz, hzz, 0); repeats, with mips.
+// Two layers a tile: (h, hx, hz, hx^2 + hz^2), with mips, and (hxx, hxz, hzz, 0), without; repeats.
 layout(binding = SHOAL_UNIT_WAVE_TILES) uniform sampler2DArray waveTiles;
 
 struct Wave {

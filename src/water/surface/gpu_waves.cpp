@@ -4,6 +4,7 @@
 
 #include <epoxy/gl.h>
 
+#include <shoal/core/parallel.h>
 #include <shoal/water/gpu_waves.h>
 
 #include "water/bindings.shared.h"
@@ -51,12 +52,38 @@ struct GpuWaves::State {
     gl::Device* device = nullptr;
     gl::BlockBuffer<WaveBlock> block;
     gl::Texture tiles;
-    std::vector<float> level0;
+    std::vector<std::vector<float>> levels[SHOAL_MAX_WAVE_TILES];  // by tile: texels of every mip level, 4 floats each
     std::uint64_t revision = 0;
 
     Result<void> fit(int size, int layers);
     void upload(const WaveField& field);
 };
+
+namespace {
+
+// (h, hx, hz, hx^2 + hz^2) and its means over squares of texels: from what is lost between the mean square and the
+// square of the mean, shaders tell how much the slopes vary. On the CPU: drivers round their mip levels differently.
+void makeLevels(const WaveTile& tile, std::vector<std::vector<float>>& levels) {
+    levels.resize(std::size_t(std::bit_width(unsigned(tile.size))));
+    levels[0] = tile.height;
+    for (std::size_t t = 0; t < levels[0].size(); t += 4) {
+        float* v = &levels[0][t];
+        v[3] = v[1] * v[1] + v[2] * v[2];
+    }
+    for (std::size_t l = 1; l < levels.size(); ++l) {
+        const std::size_t size = std::size_t(tile.size) >> l, from = 2 * size;
+        levels[l].resize(size * size * 4);
+        for (std::size_t j = 0; j < size; ++j)
+            for (std::size_t i = 0; i < size; ++i) {
+                const float* a = &levels[l - 1][(2 * j * from + 2 * i) * 4];
+                const float* b = a + from * 4;
+                float* to = &levels[l][(j * size + i) * 4];
+                for (int c = 0; c < 4; ++c) to[c] = 0.25f * ((a[c] + a[c + 4]) + (b[c] + b[c + 4]));
+            }
+    }
+}
+
+}  // namespace
 
 // A texture is bound even where there are no tiles: shaders name it.
 Result<void> GpuWaves::State::fit(int size, int layers) {
@@ -77,15 +104,12 @@ Result<void> GpuWaves::State::fit(int size, int layers) {
 
 void GpuWaves::State::upload(const WaveField& field) {
     const auto from = field.tiles();
+    parallelFor(from.size(), 1, [&](std::size_t i) { makeLevels(from[i], levels[i]); });
     for (std::size_t i = 0; i < from.size(); ++i) {
-        // The mean square goes into the fourth channel: in the mips it tells how much the slopes vary.
-        level0 = from[i].height;
-        for (std::size_t t = 0; t < level0.size(); t += 4)
-            level0[t + 3] = level0[t + 1] * level0[t + 1] + level0[t + 2] * level0[t + 2];
-        tiles.upload(0, int(2 * i), GL_RGBA, GL_FLOAT, level0.data());
+        for (std::size_t l = 0; l < levels[i].size(); ++l)
+            tiles.upload(int(l), int(2 * i), GL_RGBA, GL_FLOAT, levels[i][l].data());
         tiles.upload(0, int(2 * i) + 1, GL_RGBA, GL_FLOAT, from[i].curvature.data());
     }
-    if (!from.empty()) tiles.generateMipmaps();
 }
 
 GpuWaves::GpuWaves(std::unique_ptr<State> state) : state_(std::move(state)) {}

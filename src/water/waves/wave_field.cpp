@@ -102,7 +102,8 @@ WaveBounds WaveField::State::sum() const {
     WaveBounds b;
     const auto add = [&](double height, double slope, double wavelength) {
         if (!(height > 0)) return;
-        b.height += height, b.slope += slope;
+        // The numbers handed out are rounded to 32 bits.
+        b.height += height * (1 + 1e-6), b.slope += slope * (1 + 1e-6);
         if (wavelength > 0) b.wavelength = b.wavelength > 0 ? std::min(b.wavelength, wavelength) : wavelength;
     };
     for (const MovingPlane& w : moving) {
@@ -153,7 +154,7 @@ void addCosine(WaveField::State& state, bool circular) {
         state.moving.push_back({amplitude, k, 0, 0, std::sqrt(kGravity * k)});
     }
     if (noise > 0 && p.amplitude > 0)
-        state.source = makePerlinNoise({double(p.amplitude) * noise, 0.5 * double(p.wavelength), p.seed});
+        state.source = makePerlinNoise({double(p.amplitude) * noise, double(p.wavelength) / 3, p.seed});
 }
 
 }  // namespace
