@@ -162,9 +162,7 @@ int run(int frameCount, const char* picture) {
     surfaces->attach(osg::Camera::COLOR_BUFFER2, t.viewDepth), surfaces->attach(osg::Camera::DEPTH_BUFFER, t.depth);
     surfaces->addChild(shoalsTurn->scene), surfaces->setFinalDrawCallback(shoalsTurn);
 
-    osg::ref_ptr<osg::Geometry> screen = new osg::Geometry;  // one triangle over everything
-    screen->setVertexArray(new osg::Vec3Array(3));
-    screen->addPrimitiveSet(new osg::DrawArrays(GL_TRIANGLES, 0, 3));
+    osg::ref_ptr<osg::Geometry> screen = osg::createTexturedQuadGeometry({-1, -1, 0}, {2, 0, 0}, {0, 2, 0});
     osg::StateSet* compose = screen->getOrCreateStateSet();
     screen->setCullingActive(false);
     compose->setAttributeAndModes(program(kScreenShader, kComposeShader));
