@@ -164,7 +164,7 @@ int run(int frameCount, const char* picture) {
 
     osg::ref_ptr<osg::Geometry> screen = osg::createTexturedQuadGeometry({-1, -1, 0}, {2, 0, 0}, {0, 2, 0});
     osg::StateSet* compose = screen->getOrCreateStateSet();
-    screen->setCullingActive(false);
+    screen->setCullingActive(false), screen->setUseDisplayList(false);  // a list has no gl_VertexID
     compose->setAttributeAndModes(program(kScreenShader, kComposeShader));
     compose->setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF);
     int unit = 0;
