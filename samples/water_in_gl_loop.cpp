@@ -12,6 +12,8 @@
 #include <shoal/io/image.h>
 #include <shoal/water/water.h>
 
+#include "water_host_shaders.h"
+
 namespace {
 
 using namespace shoal;
@@ -22,54 +24,15 @@ constexpr int kWidth = 960, kHeight = 540;
 struct Box {
     Vec3 center, half, color;
 };
-const Box kBoxes[] = {{{0, -5.1f, 0}, {40, 0.1f, 40}, {0.55f, 0.5f, 0.4f}},
-                      {{0, -4.2f, -2}, {0.8f, 0.8f, 0.8f}, {0.5f, 0.12f, 0.1f}},
-                      {{2.4f, -3.5f, -3}, {0.4f, 1.5f, 0.4f}, {0.45f, 0.45f, 0.42f}},
-                      {{-2.6f, -3.5f, -4}, {0.4f, 1.5f, 0.4f}, {0.45f, 0.45f, 0.42f}},
-                      {{-0.2f, -1.9f, -3.6f}, {3.2f, 0.2f, 0.7f}, {0.45f, 0.45f, 0.42f}},
-                      {{1.2f, -2.6f, -0.5f}, {0.5f, 0.06f, 0.2f}, {0.7f, 0.4f, 0.05f}}};
+const Box kBoxes[] = {
+    {{0, -5.1f, 0}, {40, 0.1f, 40}, {0.55f, 0.5f, 0.4f}},
+    {{0, -4.2f, -2}, {0.8f, 0.8f, 0.8f}, {0.5f, 0.12f, 0.1f}},
+    {{2.4f, -3.5f, -3}, {0.4f, 1.5f, 0.4f}, {0.45f, 0.45f, 0.42f}},
+    {{-2.6f, -3.5f, -4}, {0.4f, 1.5f, 0.4f}, {0.45f, 0.45f, 0.42f}},
+    {{-0.2f, -1.9f, -3.6f}, {3.2f, 0.2f, 0.7f}, {0.45f, 0.45f, 0.42f}},
+};
 
-const char* kVertex = R"(#version 450 core
-layout(location = 0) uniform mat4 clipFromWorld;
-layout(location = 1) uniform vec3 center; layout(location = 2) uniform vec3 halfSize;
-layout(location = 0) out vec3 world; layout(location = 1) flat out vec3 normal;
-void main() {   // 36 vertices of a cube: face, corner
-    int face = gl_VertexID / 6, corner = gl_VertexID % 6, axis = face / 2;
-    float side = (face & 1) == 0 ? 1.0 : -1.0;
-    vec2 uv = vec2(corner == 1 || corner == 2 || corner == 4 ? 1.0 : -1.0, corner == 2 || corner == 4 || corner == 5 ? 1.0 : -1.0);
-    vec3 p = axis == 0 ? vec3(side, uv.x, uv.y * side) : axis == 1 ? vec3(uv.x, side, -uv.y * side) : vec3(uv.x * side, uv.y, side);
-    normal = axis == 0 ? vec3(side, 0, 0) : axis == 1 ? vec3(0, side, 0) : vec3(0, 0, side);
-    world = center + halfSize * p;
-    gl_Position = clipFromWorld * vec4(world, 1.0);
-})";
-const char* kSurface = R"(#version 450 core
-layout(location = 3) uniform vec3 color; layout(location = 4) uniform vec4 viewZ;
-layout(location = 0) in vec3 world; layout(location = 1) flat in vec3 normal;
-layout(location = 0) out vec4 outAlbedo; layout(location = 1) out vec2 outNormal; layout(location = 2) out float outViewDepth;
-void main() {
-    float checks = mod(floor(world.x) + floor(world.y + 0.01) + floor(world.z), 2.0);
-    outAlbedo = vec4(color * (0.85 + 0.3 * checks), 1.0);
-    vec3 n = normal / (abs(normal.x) + abs(normal.y) + abs(normal.z));   // octahedral [Cigolle et al. 2014]
-    vec2 signs = vec2(n.x >= 0.0 ? 1.0 : -1.0, n.y >= 0.0 ? 1.0 : -1.0);
-    outNormal = 0.5 + 0.5 * (n.z >= 0.0 ? n.xy : (1.0 - abs(n.yx)) * signs);
-    outViewDepth = dot(viewZ, vec4(world, 1.0));
-})";
 const char* kNothing = "#version 450 core\nvoid main() {}";
-const char* kScreen = R"(#version 450 core
-void main() { gl_Position = vec4(vec2(gl_VertexID & 1, gl_VertexID >> 1) * 4.0 - 1.0, 0.5, 1.0); })";
-const char* kCompose = R"(#version 450 core
-layout(binding = 0) uniform sampler2D albedo; layout(binding = 1) uniform sampler2D viewDepth;
-layout(binding = 2) uniform sampler2D direct; layout(binding = 3) uniform sampler2D ambient; layout(binding = 4) uniform sampler2D inscatter;
-layout(location = 0) uniform vec3 attenuation; layout(location = 1) uniform vec2 tangent;
-layout(location = 0) out vec4 outColor;
-void main() {
-    ivec2 at = ivec2(gl_FragCoord.xy);
-    float z = texelFetch(viewDepth, at, 0).x;
-    vec2 ray = (gl_FragCoord.xy / vec2(textureSize(viewDepth, 0)) * 2.0 - 1.0) * tangent;
-    vec3 lit = texelFetch(albedo, at, 0).rgb * (texelFetch(direct, at, 0).rgb / 3.14159265 + texelFetch(ambient, at, 0).rgb);
-    vec3 radiance = lit * exp(-attenuation * z * length(vec3(ray, 1.0))) * (z > 0.0 ? 1.0 : 0.0) + texelFetch(inscatter, at, 0).rgb;
-    outColor = vec4(pow(1.0 - exp(-1.2 * radiance), vec3(1.0 / 2.2)), 1.0);
-})";
 
 GLuint makeProgram(const char* vertex, const char* fragment) {
     const GLuint program = glCreateProgram();
@@ -125,8 +88,8 @@ int run(GLFWwindow* window, int frameCount, const char* picture) {
     Bounds bounds;
     for (const Box& box : kBoxes) bounds.add(box.center - box.half), bounds.add(box.center + box.half);
 
-    const GLuint surfaces = makeProgram(kVertex, kSurface), depthOnly = makeProgram(kVertex, kNothing);
-    const GLuint compose = makeProgram(kScreen, kCompose);
+    const GLuint surfaces = makeProgram(kCubeShader, kSurfaceShader), depthOnly = makeProgram(kCubeShader, kNothing);
+    const GLuint compose = makeProgram(kScreenShader, kComposeShader);
     const gl::TextureView albedo = makeTexture(GL_RGBA8), normal = makeTexture(GL_RG16),
                           viewDepth = makeTexture(GL_R32F), depth = makeTexture(GL_DEPTH_COMPONENT32F),
                           direct = makeTexture(GL_RGBA16F), ambient = makeTexture(GL_RGBA16F),
@@ -179,7 +142,11 @@ int run(GLFWwindow* window, int frameCount, const char* picture) {
         glDisable(GL_DEPTH_TEST);
         glUseProgram(compose);
         const Vec3 c = water->body().optics.beamAttenuation();
-        glUniform3fv(0, 1, &c.x), glUniform2f(1, std::tan(fov / 2) * kWidth / kHeight, std::tan(fov / 2));
+        glUniform3fv(glGetUniformLocation(compose, "attenuation"), 1, &c.x);
+        glUniform2f(glGetUniformLocation(compose, "tangent"), std::tan(fov / 2) * kWidth / kHeight, std::tan(fov / 2));
+        int unit = 0;
+        for (const char* input : {"albedo", "viewDepth", "direct", "ambient", "inscatter"})
+            glUniform1i(glGetUniformLocation(compose, input), unit++);
         const GLuint inputs[] = {albedo.name, viewDepth.name, direct.name, ambient.name, inscatter.name};
         glBindTextures(0, 5, inputs);
         glDrawArrays(GL_TRIANGLES, 0, 3);

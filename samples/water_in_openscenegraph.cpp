@@ -1,5 +1,5 @@
-// Caustics and god rays in an engine that is not ours: OpenSceneGraph draws its scene graph into its own textures, Shoal
-// is handed those with the camera and the sun, and OpenSceneGraph composes the picture.
+// Caustics and god rays in an engine that is not ours: OpenSceneGraph draws its scene graph into its own textures,
+// Shoal is handed those with the camera and the sun, and OpenSceneGraph composes the picture.
 //   sample_water_in_openscenegraph [FRAMES [PICTURE.png]]
 #include <cmath>
 #include <cstdio>
@@ -20,44 +20,12 @@
 
 #include <shoal/water/water.h>
 
+#include "water_host_shaders.h"
+
 namespace {
 
 using namespace shoal;
 constexpr int kWidth = 960, kHeight = 540;
-
-const char* kVertex = R"(#version 450 compatibility
-out vec3 normal; out vec4 color; out float viewDepth;
-uniform mat4 worldFromView;
-void main() {
-    normal = mat3(worldFromView) * (gl_NormalMatrix * gl_Normal);
-    color = gl_Color;
-    viewDepth = -(gl_ModelViewMatrix * gl_Vertex).z;
-    gl_Position = gl_ModelViewProjectionMatrix * gl_Vertex;
-})";
-const char* kSurface = R"(#version 450 compatibility
-in vec3 normal; in vec4 color; in float viewDepth;
-layout(location = 0) out vec4 outAlbedo; layout(location = 1) out vec2 outNormal; layout(location = 2) out float outViewDepth;
-void main() {
-    vec3 n = normalize(normal);
-    n /= abs(n.x) + abs(n.y) + abs(n.z);   // octahedral [Cigolle et al. 2014]
-    vec2 signs = vec2(n.x >= 0.0 ? 1.0 : -1.0, n.y >= 0.0 ? 1.0 : -1.0);
-    outNormal = 0.5 + 0.5 * (n.z >= 0.0 ? n.xy : (1.0 - abs(n.yx)) * signs);
-    outAlbedo = color;
-    outViewDepth = viewDepth;
-})";
-const char* kScreen = R"(#version 450 compatibility
-void main() { gl_Position = vec4(gl_Vertex.xy, 0.5, 1.0); })";
-const char* kCompose = R"(#version 450 compatibility
-uniform sampler2D albedo, viewDepth, direct, ambient, inscatter;
-uniform vec3 attenuation; uniform vec2 tangent;
-void main() {
-    ivec2 at = ivec2(gl_FragCoord.xy);
-    float z = texelFetch(viewDepth, at, 0).x;
-    vec2 ray = (gl_FragCoord.xy / vec2(textureSize(viewDepth, 0)) * 2.0 - 1.0) * tangent;
-    vec3 lit = texelFetch(albedo, at, 0).rgb * (texelFetch(direct, at, 0).rgb / 3.14159265 + texelFetch(ambient, at, 0).rgb);
-    vec3 radiance = lit * exp(-attenuation * z * length(vec3(ray, 1.0))) * (z > 0.0 ? 1.0 : 0.0) + texelFetch(inscatter, at, 0).rgb;
-    gl_FragColor = vec4(pow(1.0 - exp(-1.2 * radiance), vec3(1.0 / 2.2)), 1.0);
-})";
 
 osg::ref_ptr<osg::Program> program(const char* vertex, const char* fragment) {
     osg::ref_ptr<osg::Program> p = new osg::Program;
@@ -77,22 +45,23 @@ osg::ref_ptr<osg::Group> makeScene() {
     add(new osg::Sphere({0, -4, -2}, 1), {0.5f, 0.12f, 0.1f, 1});
     add(new osg::Box({2.6f, -3.4f, -3}, 0.8f, 3.2f, 0.8f), {0.45f, 0.45f, 0.42f, 1});
     add(new osg::Box({-2.6f, -3.4f, -4}, 0.8f, 3.2f, 0.8f), {0.45f, 0.45f, 0.42f, 1});
-    add(new osg::Sphere({1, -2, -0.5f}, 0.3f), {0.8f, 0.5f, 0.05f, 1});
     return scene;
 }
 
-osg::ref_ptr<osg::Texture2D> makeTexture(GLint format, GLenum source, GLenum type) {
+osg::ref_ptr<osg::Texture2D> makeTexture(GLint format, GLenum source = GL_RGBA) {
     osg::ref_ptr<osg::Texture2D> t = new osg::Texture2D;
-    t->setTextureSize(kWidth, kHeight), t->setInternalFormat(format), t->setSourceFormat(source), t->setSourceType(type);
-    t->setFilter(osg::Texture::MIN_FILTER, osg::Texture::NEAREST), t->setFilter(osg::Texture::MAG_FILTER, osg::Texture::NEAREST);
+    t->setTextureSize(kWidth, kHeight), t->setInternalFormat(format);
+    t->setSourceFormat(source), t->setSourceType(GL_FLOAT);
+    t->setFilter(osg::Texture::MIN_FILTER, osg::Texture::NEAREST);
+    t->setFilter(osg::Texture::MAG_FILTER, osg::Texture::NEAREST);
     return t;
 }
 
 struct Textures {
-    osg::ref_ptr<osg::Texture2D> albedo = makeTexture(GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE), normal = makeTexture(GL_RG16, GL_RG, GL_UNSIGNED_SHORT),
-                                 viewDepth = makeTexture(GL_R32F, GL_RED, GL_FLOAT), depth = makeTexture(GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT),
-                                 direct = makeTexture(GL_RGBA16F, GL_RGBA, GL_FLOAT), ambient = makeTexture(GL_RGBA16F, GL_RGBA, GL_FLOAT),
-                                 inscatter = makeTexture(GL_RGBA16F, GL_RGBA, GL_FLOAT);
+    osg::ref_ptr<osg::Texture2D> albedo = makeTexture(GL_RGBA8), normal = makeTexture(GL_RG16),
+                                 direct = makeTexture(GL_RGBA16F), ambient = makeTexture(GL_RGBA16F),
+                                 inscatter = makeTexture(GL_RGBA16F), viewDepth = makeTexture(GL_R32F),
+                                 depth = makeTexture(GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT);
 };
 
 osg::Matrixd matrix(const Mat4& m) { return osg::Matrixd(m.m.data()); }
@@ -109,8 +78,9 @@ struct LightInWater : osg::Camera::DrawCallback {
     Vec3 attenuation = water::resolveOptics({}).value().beamAttenuation();
 
     gl::TextureView shared(osg::Texture2D& texture, osg::State& state) const {
-        texture.apply(state);   // makes it where it is not drawn to
-        return {texture.getTextureObject(state.getContextID())->id(), GL_TEXTURE_2D, GLenum(texture.getInternalFormat()), kWidth, kHeight};
+        texture.apply(state);  // makes it where it is not drawn to
+        return {texture.getTextureObject(state.getContextID())->id(), GL_TEXTURE_2D,
+                GLenum(texture.getInternalFormat()), kWidth, kHeight};
     }
     Result<void> start() const {
         SHOAL_TRY_ASSIGN(device, gl::Device::fromCurrentContext());
@@ -123,12 +93,15 @@ struct LightInWater : osg::Camera::DrawCallback {
     void drawDepth(osg::RenderInfo& info, const frame::NeededView& needed) const {
         osg::ref_ptr<osgUtil::SceneView> lightView = new osgUtil::SceneView;
         lightView->setDefaults(osgUtil::SceneView::NO_SCENEVIEW_LIGHT);
-        lightView->setState(info.getState()), lightView->setSceneData(scene), lightView->setFrameStamp(info.getState()->getFrameStamp());
+        lightView->setState(info.getState()), lightView->setSceneData(scene),
+            lightView->setFrameStamp(info.getState()->getFrameStamp());
         lightView->setComputeNearFarMode(osgUtil::CullVisitor::DO_NOT_COMPUTE_NEAR_FAR);
         lightView->setCullingMode(osg::CullSettings::NO_CULLING);
-        lightView->getCamera()->setClearMask(0);
+        lightView->getCamera()->setClearMask(0), lightView->getCamera()->setDrawBuffer(GL_NONE),
+            lightView->getCamera()->setReadBuffer(GL_NONE);
         lightView->setViewport(0, 0, needed.view.width, needed.view.height);
-        lightView->setProjectionMatrix(matrix(needed.view.clipFromView)), lightView->setViewMatrix(matrix(needed.view.viewFromWorld));
+        lightView->setProjectionMatrix(matrix(needed.view.clipFromView)),
+            lightView->setViewMatrix(matrix(needed.view.viewFromWorld));
         lightView->cull();
         glBindFramebuffer(GL_FRAMEBUFFER, needed.framebuffer);
         const float nothing = 0;
@@ -138,10 +111,9 @@ struct LightInWater : osg::Camera::DrawCallback {
     void operator()(osg::RenderInfo& info) const override {
         osg::State& state = *info.getState();
         if (!water)
-            if (const auto started = start(); !started) error = started.error().message;
-        if (!water) return;
-        const gl::TextureView viewDepth = shared(*textures.viewDepth, state), normal = shared(*textures.normal, state), depth = shared(*textures.depth, state);
-        const gl::TextureView direct = shared(*textures.direct, state), ambient = shared(*textures.ambient, state), inscatter = shared(*textures.inscatter, state);
+            if (const auto started = start(); !started) return void(error = started.error().message);
+        const auto view2d = [&](osg::Texture2D& texture) { return shared(texture, state); };
+        const gl::TextureView viewDepth = view2d(*textures.viewDepth);
         frame::Context context;
         context.device = device.get(), context.view = context.previousView = view;
         context.time = float(frame) / 30, context.frameIndex = std::uint32_t(frame);
@@ -153,10 +125,19 @@ struct LightInWater : osg::Camera::DrawCallback {
             for (const frame::NeededView& needed : water->neededViews()) drawDepth(info, needed);
             gl::setKnownState();
             water->renderLight(context, {}, lights);
-            water->light(context, lights, {viewDepth, normal}, {direct, ambient});
-            water->scatter(context, {}, lights, viewDepth, depth, inscatter);
+            water->light(context, lights, {viewDepth, view2d(*textures.normal)},
+                         {view2d(*textures.direct), view2d(*textures.ambient)});
+            water->scatter(context, {}, lights, viewDepth, view2d(*textures.depth), view2d(*textures.inscatter));
         }
-        state.reset();   // what OpenSceneGraph believes about GL is from before
+        state.dirtyAllModes(), state.dirtyAllAttributes(), state.dirtyAllVertexArrays();  // it believes what was before
+    }
+};
+
+// Keeps the window's picture.
+struct Capture : osg::Camera::DrawCallback {
+    osg::ref_ptr<osg::Image> image = new osg::Image;
+    void operator()(osg::RenderInfo&) const override {
+        image->readPixels(0, 0, kWidth, kHeight, GL_RGB, GL_UNSIGNED_BYTE);
     }
 };
 
@@ -164,16 +145,18 @@ int run(int frameCount, const char* picture) {
     osg::ref_ptr<LightInWater> shoalsTurn = new LightInWater;
     shoalsTurn->scene = makeScene();
     const Textures& t = shoalsTurn->textures;
-    osg::StateSet* reversed = shoalsTurn->scene->getOrCreateStateSet();   // depth 1 near, 0 far, as Shoal's views
+    osg::StateSet* reversed = shoalsTurn->scene->getOrCreateStateSet();  // depth 1 near, 0 far, as Shoal's views
     reversed->setAttributeAndModes(new osg::Depth(osg::Depth::GREATER));
     reversed->setAttributeAndModes(new osg::ClipControl(osg::ClipControl::LOWER_LEFT, osg::ClipControl::ZERO_TO_ONE));
-    reversed->setAttributeAndModes(program(kVertex, kSurface));
+    reversed->setAttributeAndModes(program(kSceneGraphShader, kSurfaceShader));
     osg::ref_ptr<osg::Uniform> worldFromView = new osg::Uniform("worldFromView", osg::Matrixf());
     reversed->addUniform(worldFromView);
 
-    osg::ref_ptr<osg::Camera> surfaces = new osg::Camera;   // into textures, before the window
-    surfaces->setRenderOrder(osg::Camera::PRE_RENDER), surfaces->setRenderTargetImplementation(osg::Camera::FRAME_BUFFER_OBJECT);
-    surfaces->setReferenceFrame(osg::Transform::ABSOLUTE_RF), surfaces->setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
+    osg::ref_ptr<osg::Camera> surfaces = new osg::Camera;  // into textures, before the window
+    surfaces->setRenderOrder(osg::Camera::PRE_RENDER),
+        surfaces->setRenderTargetImplementation(osg::Camera::FRAME_BUFFER_OBJECT);
+    surfaces->setReferenceFrame(osg::Transform::ABSOLUTE_RF),
+        surfaces->setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
     surfaces->setViewport(0, 0, kWidth, kHeight), surfaces->setClearDepth(0), surfaces->setClearColor({0, 0, 0, 0});
     surfaces->attach(osg::Camera::COLOR_BUFFER0, t.albedo), surfaces->attach(osg::Camera::COLOR_BUFFER1, t.normal);
     surfaces->attach(osg::Camera::COLOR_BUFFER2, t.viewDepth), surfaces->attach(osg::Camera::DEPTH_BUFFER, t.depth);
@@ -182,10 +165,15 @@ int run(int frameCount, const char* picture) {
     osg::ref_ptr<osg::Geometry> screen = osg::createTexturedQuadGeometry({-1, -1, 0}, {2, 0, 0}, {0, 2, 0});
     osg::StateSet* compose = screen->getOrCreateStateSet();
     screen->setCullingActive(false);
-    compose->setAttributeAndModes(program(kScreen, kCompose));
+    compose->setAttributeAndModes(program(kScreenShader, kComposeShader));
     compose->setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF);
-    const std::pair<const char*, osg::Texture2D*> inputs[] = {{"albedo", t.albedo}, {"viewDepth", t.viewDepth}, {"direct", t.direct}, {"ambient", t.ambient}, {"inscatter", t.inscatter}};
-    for (int unit = 0; unit < 5; ++unit) compose->setTextureAttributeAndModes(unit, inputs[unit].second), compose->addUniform(new osg::Uniform(inputs[unit].first, unit));
+    int unit = 0;
+    const auto input = [&](const char* name, osg::Texture2D* texture) {
+        compose->setTextureAttributeAndModes(unit, texture);
+        compose->addUniform(new osg::Uniform(name, unit++));
+    };
+    input("albedo", t.albedo), input("viewDepth", t.viewDepth), input("direct", t.direct);
+    input("ambient", t.ambient), input("inscatter", t.inscatter);
     const Vec3 c = shoalsTurn->attenuation;
     const float fov = radians(60), up = std::tan(fov / 2);
     compose->addUniform(new osg::Uniform("attenuation", osg::Vec3(c.x, c.y, c.z)));
@@ -198,20 +186,26 @@ int run(int frameCount, const char* picture) {
     root->addChild(surfaces), root->addChild(screen);
     viewer.setSceneData(root);
     viewer.getCamera()->setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
-    osg::ref_ptr<osg::Image> image = new osg::Image;
+    osg::ref_ptr<Capture> capture = new Capture;
     viewer.realize();
-    if (!viewer.isRealized()) return std::fprintf(stderr, "sample_water_in_openscenegraph: no window could be opened\n"), 1;
+    if (!viewer.isRealized())
+        return std::fprintf(stderr, "sample_water_in_openscenegraph: no window could be opened\n"), 1;
     for (int frame = 0; !viewer.done() && (frameCount == 0 || frame < frameCount); ++frame) {
         const float turn = 0.1f * std::sin(float(frame) / 30);
         shoalsTurn->frame = frame;
-        shoalsTurn->view = light::makeView(light::cameraLookingAt({5 * std::sin(turn), -3, 5}, {0, -2.6f, -2}, fov), kWidth, kHeight);
-        surfaces->setViewMatrix(matrix(shoalsTurn->view.viewFromWorld)), surfaces->setProjectionMatrix(matrix(shoalsTurn->view.clipFromView));
+        shoalsTurn->view =
+            light::makeView(light::cameraLookingAt({5 * std::sin(turn), -3, 5}, {0, -2.6f, -2}, fov), kWidth, kHeight);
+        surfaces->setViewMatrix(matrix(shoalsTurn->view.viewFromWorld)),
+            surfaces->setProjectionMatrix(matrix(shoalsTurn->view.clipFromView));
         worldFromView->set(osg::Matrixf(matrix(shoalsTurn->view.worldFromView)));
-        if (frame + 1 == frameCount && picture) image->allocateImage(kWidth, kHeight, 1, GL_RGB, GL_UNSIGNED_BYTE), viewer.getCamera()->attach(osg::Camera::COLOR_BUFFER, image);
+        if (frame + 1 == frameCount && picture) viewer.getCamera()->setFinalDrawCallback(capture);
         viewer.frame();
-        if (!shoalsTurn->error.empty()) return std::fprintf(stderr, "sample_water_in_openscenegraph: %s\n", shoalsTurn->error.c_str()), 1;
+        if (!shoalsTurn->error.empty())
+            return std::fprintf(stderr, "sample_water_in_openscenegraph: %s\n", shoalsTurn->error.c_str()), 1;
     }
-    return picture && !osgDB::writeImageFile(*image, picture) ? 1 : 0;
+    viewer.getCamera()->getGraphicsContext()->makeCurrent();  // Shoal's objects go while their context is there
+    shoalsTurn->water.reset(), shoalsTurn->device.reset();
+    return picture && !osgDB::writeImageFile(*capture->image, picture) ? 1 : 0;
 }
 
 }  // namespace
