@@ -177,6 +177,7 @@ struct WavyShaftError {
     double rmse = 0;      // relative, of pixels away from edges
     double edgeRmse = 0;  // of pixels within 4 pixels of an edge of what is seen
     double mean = 0;      // of all: picture over truth, less 1
+    double contrast = 0;  // of the truth: standard deviation of its ratio to level water's
 };
 
 // S1 seen from 2 m below over a floor at 6 m, with a post 3 m away whose edges cut the paths (it stands in the picture
@@ -184,19 +185,19 @@ struct WavyShaftError {
 inline WavyShaftError wavyShaftError(gl::Device& device, float resolutionScale = 0.25f, int photons = 40000,
                                      double zenith = 0, bool print = false, const water::ShaftSetup& setup = {},
                                      Image* drawn = nullptr, Image* truth = nullptr) {
-    constexpr int kWidth = 480, kHeight = 270, kStride = 2;
+    constexpr int kWidth = 320, kHeight = 180, kStride = 4, kSteps = 96;
     ShaftScene scene(device, kWidth, kHeight, sinusoidS1(), setup);
-    const Vec3 eye{0.3f, -2, 0};
-    scene.look(eye, eye + Vec3{1, 0.1f, 0.35f}, 55);
+    const Vec3 eye{0.1f, -3, 0};
+    scene.look(eye, eye + Vec3{0.05f, -0.1f, -1}, 40);
     scene.sun.toSun = toSunAt(zenith);
     scene.bounds = {{-15, -6, -15}, {15, 0, 15}};
     scene.params.resolutionScale = resolutionScale;
     scene.params.photons = photons;
     const DistanceOfRay floor = distanceToFloor(eye, -6);
-    const auto isPost = [](Vec3 d) { return std::abs(double(d.z) / double(d.x) - 0.3) < 0.08; };
+    const auto isPost = [](Vec3 d) { return std::abs(double(d.x) / double(d.z) + 0.2) < 0.06; };
     const auto distance = [&](Vec3 d) {
-        const double post = isPost(d) ? 3 / double(d.x) : 1e9, bottom = floor(d);
-        const double top = d.y > 0 ? 1.94 / double(d.y) : 1e9;  // below the troughs
+        const double post = isPost(d) ? -3 / double(d.z) : 1e9, bottom = floor(d);
+        const double top = d.y > 0 ? 2.94 / double(d.y) : 1e9;  // below the troughs
         return std::min({post, bottom > 0 ? bottom : 1e9, top, 12.0});
     };
     scene.setDistances(distance);
@@ -205,7 +206,7 @@ inline WavyShaftError wavyShaftError(gl::Device& device, float resolutionScale =
     if (truth) *truth = Image(kWidth, kHeight, 1);
 
     struct Sum {
-        double squares = 0, ratio = 0;
+        double squares = 0, ratio = 0, waves = 0, waves2 = 0;
         int count = 0;
     };
     std::vector<Sum> interior(kHeight), edge(kHeight);
@@ -215,8 +216,8 @@ inline WavyShaftError wavyShaftError(gl::Device& device, float resolutionScale =
         const int y = int(i);
         for (int x = 0; y % kStride == 0 && x < kWidth; x += kStride) {
             const Vec3 d = scene.rayOf(x, y);
-            water::analytic::ShaftRay ray{2, double(eye.x), double(d.x), double(d.y), double(d.z), distance(d)};
-            const double expected = water::analytic::sinusoidShaft({}, s, ray, 256);
+            water::analytic::ShaftRay ray{-double(eye.y), double(eye.x), double(d.x), double(d.y), double(d.z), distance(d)};
+            const double expected = water::analytic::sinusoidShaft({}, s, ray, kSteps);
             const double found = double(picture.at(x, y)[1]);
             bool nearEdge = false;
             for (const int dx : {-4, 4}) {
@@ -226,6 +227,8 @@ inline WavyShaftError wavyShaftError(gl::Device& device, float resolutionScale =
             Sum& sum = nearEdge ? edge[std::size_t(y)] : interior[std::size_t(y)];
             sum.squares += (found / expected - 1) * (found / expected - 1), sum.ratio += found / expected - 1;
             ++sum.count;
+            const double wavy = expected / water::analytic::flatShaft({}, zenith, ray);
+            sum.waves += wavy, sum.waves2 += wavy * wavy;
             if (truth)
                 for (int j = 0; j < kStride && y + j < kHeight; ++j)
                     for (int i = 0; i < kStride && x + i < kWidth; ++i) truth->at(x + i, y + j)[0] = float(expected);
@@ -234,16 +237,22 @@ inline WavyShaftError wavyShaftError(gl::Device& device, float resolutionScale =
     parallelFor(kHeight, 4, row);
     const auto total = [](const std::vector<Sum>& rows) {
         Sum all;
-        for (const Sum& r : rows) all.squares += r.squares, all.ratio += r.ratio, all.count += r.count;
+        for (const Sum& r : rows) {
+            all.squares += r.squares, all.ratio += r.ratio, all.count += r.count;
+            all.waves += r.waves, all.waves2 += r.waves2;
+        }
         return all;
     };
     const Sum in = total(interior), at = total(edge);
     WavyShaftError error;
     error.rmse = std::sqrt(in.squares / in.count), error.edgeRmse = std::sqrt(at.squares / at.count);
-    error.mean = (in.ratio + at.ratio) / (in.count + at.count);
+    const double count = in.count + at.count, waves = (in.waves + at.waves) / count;
+    error.mean = (in.ratio + at.ratio) / count;
+    error.contrast = std::sqrt((in.waves2 + at.waves2) / count - waves * waves);
     if (print)
-        std::printf("wavy, scale %.2f, %d photons, zenith %.2f: rmse %.4f, edges %.4f (%d pixels), mean %+.4f\n",
-                    double(resolutionScale), photons, zenith, error.rmse, error.edgeRmse, at.count, error.mean);
+        std::printf(
+            "wavy, scale %.2f, %d photons, zenith %.2f: rmse %.4f, edges %.4f (%d pixels), mean %+.4f, contrast %.3f\n",
+            double(resolutionScale), photons, zenith, error.rmse, error.edgeRmse, at.count, error.mean, error.contrast);
     return error;
 }
 

@@ -24,10 +24,12 @@ struct Photons::State {
     gl::Device* device = nullptr;
     PhotonSetup setup;
     const gl::Program* deposit[kVariants] = {};
-    const gl::Program *resolve = nullptr, *mips = nullptr;
+    const gl::Program *resolve = nullptr, *disc = nullptr, *mips = nullptr;
     const gl::Program* lookup[2] = {};  // without normals, with
     gl::Buffer deposits;                // of one slot at a time
+    gl::Texture sharp;                  // its two layers before the light's disc blurs them
     gl::Texture maps;
+    int mostFine = 1;  // deposit texels a side of a texel of the maps
     int mipLevels = 1;
     gl::BlockBuffer<WaterBlock> waterBlock;
     gl::BlockBuffer<CausticBlock> causticBlock;
@@ -40,6 +42,11 @@ namespace {
 using State = Photons::State;
 
 constexpr int kMostMipLevels = 4;  // squares begin at multiples of 8 texels
+constexpr int kSharpLevels = 6;
+constexpr int kLargestFineMap = 1024;  // texels a side of maps that may be deposited twice as fine
+// Radius of the light's disc at the slot's bottom, texels: smaller ones are not seen, and up to the second one the map
+// that they blur must be twice as fine (convolving 512^2 bins by .9 texels leaves 12 % error, 1024^2 bins 2 %).
+constexpr double kSeenDisc = 0.3, kFineDisc = 0.5, kWideDisc = 2;
 constexpr double kReflectedShare = 0.25;
 
 Result<void> makePrograms(gl::Device& device, State& s) {
@@ -54,6 +61,7 @@ Result<void> makePrograms(gl::Device& device, State& s) {
                          device.programs().get({{"water/photon_deposit.comp"}, variants[i], "photon deposit"}));
     }
     SHOAL_TRY_ASSIGN(s.resolve, device.programs().get({{"water/caustic_resolve.comp"}, {}, "caustic resolve"}));
+    SHOAL_TRY_ASSIGN(s.disc, device.programs().get({{"water/caustic_disc.comp"}, {}, "caustic disc"}));
     SHOAL_TRY_ASSIGN(s.mips, device.programs().get({{"water/caustic_mips.comp"}, {}, "caustic mips"}));
     SHOAL_TRY_ASSIGN(s.lookup[0],
                      device.programs().get({{"water/caustic_lookup.comp"}, {{"NO_NORMALS", ""}}, "caustic lookup"}));
@@ -104,22 +112,41 @@ void depositSlot(State& s, const frame::Context& context, int index, const Light
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     s.photonCount += std::int64_t(lattice.countX) * lattice.countZ;
 
-    s.resolve->set(1, float(1 / (units * fine * fine)));
-    glProgramUniform4i(s.resolve->name(), 0, s.setup.resolution, fine, 2 * index, 0);
+    s.resolve->set(1, float(1 / units));
 }
 
-void resolveSlot(State& s, const frame::Context& context, int index) {
-    const gl::PassScope pass(context.timer, "caustic maps");
-    gl::bindImage(0, s.maps, GL_WRITE_ONLY);
-    s.resolve->dispatch(s.setup.resolution, s.setup.resolution, 2);
-    for (int level = 1; level < s.mipLevels; ++level) {
+void makeMips(State& s, const gl::Texture& texture, int firstLayer, int side, int levels) {
+    for (int level = 1; level < levels; ++level) {
         glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
-        gl::bindImage(0, s.maps, GL_READ_ONLY, level - 1);
-        gl::bindImage(1, s.maps, GL_WRITE_ONLY, level);
-        s.mips->set(0, 2 * index);
-        s.mips->set(1, s.setup.resolution >> level);
-        s.mips->dispatch(s.setup.resolution >> level, s.setup.resolution >> level, 2);
+        gl::bindImage(0, texture, GL_READ_ONLY, level - 1);
+        gl::bindImage(1, texture, GL_WRITE_ONLY, level);
+        s.mips->set(0, firstLayer);
+        s.mips->set(1, side >> level);
+        s.mips->dispatch(side >> level, side >> level, 2);
     }
+}
+
+int levelsFor(double radius) { return std::clamp(1 + int(std::floor(std::log2(std::max(radius, 1.0)))), 1, kSharpLevels); }
+
+void resolveSlot(State& s, const frame::Context& context, int index, double disc, int fine) {
+    const gl::PassScope pass(context.timer, "caustic maps");
+    const int resolution = s.setup.resolution, side = resolution * fine;
+    const bool blurs = disc >= kSeenDisc;
+    const gl::Texture& target = blurs ? s.sharp : s.maps;
+    gl::bindImage(0, target, GL_WRITE_ONLY);
+    glProgramUniform2i(s.resolve->name(), 0, side, blurs ? 0 : 2 * index);
+    s.resolve->dispatch(side, side, 2);
+    if (blurs) {
+        const int levels = levelsFor(disc * fine);
+        makeMips(s, s.sharp, 0, side, levels);
+        glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+        gl::bindTexture(0, s.sharp);
+        glBindSampler(0, 0);
+        gl::bindImage(0, s.maps, GL_WRITE_ONLY);
+        glProgramUniform4i(s.disc->name(), 0, resolution, fine, index, levels);
+        s.disc->dispatch(resolution, resolution, 2);
+    }
+    makeMips(s, s.maps, 2 * index, resolution, s.mipLevels);
 }
 
 Vec4 with(Vec3 v) { return {v.x, v.y, v.z, 0}; }
@@ -175,9 +202,15 @@ Result<Photons> Photons::create(gl::Device& device, const PhotonSetup& setup) {
     desc.minFilter = GL_NEAREST_MIPMAP_NEAREST;
     desc.label = "caustic maps";
     s.maps = gl::Texture::create(device, desc);
-    const std::size_t texels = std::size_t(setup.resolution) * std::size_t(setup.resolution);
-    s.deposits = gl::Buffer::create(device, (2 * texels + 1) * sizeof(std::uint32_t), "photon deposits");
-    if (!s.maps || !s.deposits) return internalError("no memory for caustic maps");
+    s.mostFine = setup.resolution <= kLargestFineMap ? 2 : 1;
+    const std::size_t side = std::size_t(setup.resolution) * std::size_t(s.mostFine);
+    desc.width = desc.height = int(side);
+    desc.layers = 2;
+    desc.levels = kSharpLevels;
+    desc.label = "caustics before blur";
+    s.sharp = gl::Texture::create(device, desc);
+    s.deposits = gl::Buffer::create(device, (2 * side * side + 1) * sizeof(std::uint32_t), "photon deposits");
+    if (!s.maps || !s.sharp || !s.deposits) return internalError("no memory for caustic maps");
     s.waterBlock = gl::BlockBuffer<WaterBlock>::create(device, "water");
     s.causticBlock = gl::BlockBuffer<CausticBlock>::create(device, "caustics");
     return Photons(std::move(state));
@@ -198,9 +231,11 @@ void Photons::render(const frame::Context& context, const PhotonParams& params, 
     for (int i = 0; i < int(slots.size()) && i < s.setup.maxSlots; ++i) {
         const LightSlot& slot = slots[std::size_t(i)];
         s.sunHasSlot = s.sunHasSlot || (slot.light < 0 && !slot.reflected);
+        const double disc = double(slot.discRadius) / double(slot.texel);
+        const int fine = disc >= kFineDisc && disc < kWideDisc ? s.mostFine : 1;
         depositSlot(s, context, i, slot, photonsOf(slot, slots, params.photons), variantOf(slot, body, lights, air),
-                    slope, 1);
-        resolveSlot(s, context, i);
+                    slope, fine);
+        resolveSlot(s, context, i, disc, fine);
     }
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
 }
@@ -235,12 +270,12 @@ gl::TextureView Photons::maps() const { return state_->maps.view(); }
 frame::Stats Photons::stats() const {
     const State& s = *state_;
     frame::Stats stats;
-    std::int64_t texels = 0;
-    for (int level = 0; level < s.mipLevels; ++level) {
-        const std::int64_t side = s.setup.resolution >> level;
-        texels += side * side;
-    }
-    stats.bytes = std::int64_t(s.deposits.bytes()) + texels * 2 * s.setup.maxSlots * 4;
+    stats.bytes = std::int64_t(s.deposits.bytes());
+    for (const gl::Texture* texture : {&s.maps, &s.sharp})
+        for (int level = 0; level < texture->view().levels; ++level) {
+            const std::int64_t side = texture->width() >> level;
+            stats.bytes += side * side * texture->view().layers * std::int64_t(sizeof(float));
+        }
     stats.counts = {{"photons", s.photonCount}};
     return stats;
 }

@@ -337,6 +337,7 @@ SlotFit makeSlot(const Surroundings& around, const Side& side, const Square& squ
     r.rows = {side.up ? 1.0f : -1.0f, side.up ? 0.0f : float(resolution - 1), float(group), slot.margin};
     r.inner = {1, 1, 0, 0};
     fillLight(around, side, r);
+    slot.discRadius = float(double(r.irradiance.w) * std::max(sign * (side.farY() - side.level), 0.0));
 
     const float half = float(0.5 * square.side);
     const Vec2 middle{slot.origin.x + half, slot.origin.y + half};

@@ -91,10 +91,11 @@ float mapValue(vec2 s, float height, float slope, float level, int slot, bool ne
     return sum;
 }
 
-// 0 at the rim of a slot's square, 1 inside.
-float insideSlot(vec2 s, int slot) {
+// 0 outside of a slot's square, 1 inside; a finer slot fades towards the rim.
+float insideSlot(vec2 s, int slot, bool fades) {
     vec2 t = lightTexelOf(s, slot), rim = min(t, lightSpace.counts.y - t);
-    return clamp((min(rim.x, rim.y) - 1.0) / kRimTexels, 0.0, 1.0);
+    float inwards = min(rim.x, rim.y);
+    return fades ? clamp((inwards - 1.0) / kRimTexels, 0.0, 1.0) : step(0.0, inwards);
 }
 
 // Light of level water, for what lies outside of all maps.
@@ -148,7 +149,8 @@ void main() {
         vec3 toLight = towardsLight(p, slot);
         float facing = dot(normal, toLight);
         vec2 s = lightSpaceOf(p, slot);
-        float share = facing > 0.0 ? min(left, insideSlot(s, slot)) : 0.0;
+        bool last = slot + 1 == count || lightSpace.slots[min(slot + 1, count - 1)].rows.z != group;
+        float share = facing > 0.0 ? min(left, insideSlot(s, slot, !last)) : 0.0;
         left -= share;
         float tilt = length(normal.xz) / max(facing, 0.05);
         float mip = log2(max(pixelM * lightSpace.slots[slot].place.w, 1.0) * 1.2);
@@ -160,8 +162,7 @@ void main() {
         vec3 dimming = waterBlock.beamAttenuation.rgb - waterBlock.beamAttenuation.w;
         vec3 through = reflected ? vec3(1.0) : exp(-dimming * metres);
         direct += lightSpace.slots[slot].irradiance.rgb * through * (value * share * facing * scale * scale);
-        bool lastOfSun = slot + 1 == count || lightSpace.slots[min(slot + 1, count - 1)].rows.z != group;
-        if (lastOfSun && lightSpace.slots[slot].flags.x < 0.0 && !reflected && left > 0.0)
+        if (last && lightSpace.slots[slot].flags.x < 0.0 && !reflected && left > 0.0)
             direct += left * levelWaterSun(p, normal);
     }
     imageStore(directImage, pixel, vec4(direct, under ? 1.0 : 0.0));

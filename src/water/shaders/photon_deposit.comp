@@ -15,7 +15,7 @@ layout(location = 1) uniform vec4 lattice;   // first cell's x, z; cells along x
 layout(location = 2) uniform vec4 cell;      // m; texels a metre; units that a photon of flux 1 brings; side in texels
 layout(location = 3) uniform vec3 corner;    // of the square, texels from the world's 0; the most flux a photon brings
 
-const float kThinnest = 0.25;      // texels: narrower footprints are made this wide
+const float kThinnest = 0.06;      // texels: narrower footprints are made this wide
 const float kLeastRun = 0.01;      // texels: edges run at least so far along x and z
 const float kLargest = 48.0;       // texels across, for a footprint
 

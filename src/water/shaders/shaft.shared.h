@@ -25,7 +25,8 @@ SHOAL_SHAFT_BLOCK_BEGIN {
                                         // LightViews::slots()
     vec4 rims[SHOAL_MAX_SHAFT_SLOTS];   // least, greatest texel that all its light reaches: x + y d, z - y d at
                                         // depth d
-    vec4 march;   // x: steps, y: 1 / scale of the small picture, z, w: shift of the pattern
+    vec4 march;   // x: steps, y: full pixels a small pixel's side, z, w: shift of the pattern
+    vec4 small;   // x: full pixels from the middle of a small pixel to that of the one marched for it
 }
 #ifndef __cplusplus
 shaftBlock

@@ -19,7 +19,7 @@ void main() {
     float depth = waterBlock.shape.x - path.start.y;
 
     // Blurring moved everything half a small pixel on; a small pixel stands at the full pixel that was marched.
-    vec2 place = (vec2(at) + 0.5) / shaftBlock.march.y - 1.0;
+    vec2 place = (vec2(at) + 0.5 - shaftBlock.small.x) / shaftBlock.march.y - 1.0;
     vec2 corner = floor(place), f = place - corner;
     ivec2 last = textureSize(ratios, 0) - 1;
     vec4 sum = vec4(0.0);

@@ -20,7 +20,7 @@ SHOAL_FUNCTION float roughReflectance(float cosIncidence, float index, float var
     float flat_ = 1.0f - fresnelTransmittance(cosIncidence, index);
     float lobe = clamp((flat_ - r0) / (1.0f - r0), 1e-6f, 1.0f);
     float spread = sqrt(variance);
-    float rough = pow(lobe, exp(-2.69f * spread)) / (1.0f + 22.7f * spread * spread * spread);
+    float rough = pow(lobe, exp(-2.69f * spread)) / (1.0f + 22.7f * spread * sqrt(spread));
     return mix(flat_, r0 + (1.0f - r0) * rough, min(variance * 1e6f, 1.0f));
 }
 

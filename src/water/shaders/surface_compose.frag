@@ -157,7 +157,8 @@ void main() {
                   (seenCosine(cosSeen, variance) * max(together * together, 1e-6));
         sunPart = cosH > 0.0 ? sunPart : 0.0;
     }
-    vec3 sun = min(lightBlock.sunIrradiance.rgb * (lightBlock.toSun.w * sunPart * fromAir.a), vec3(kBrightest));
+    sunPart = lightBlock.toSun.w > 0.0 ? sunPart * fromAir.a : 0.0;
+    vec3 sun = min(lightBlock.sunIrradiance.rgb * sunPart, vec3(kBrightest));
 
     // The stretch of water.
     vec3 lost = dimming(traced.z);

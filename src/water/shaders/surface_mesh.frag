@@ -1,9 +1,9 @@
 #version 450 core
 // Where the surface is seen: view depth with the side it is seen from, normal, and how much its slopes vary within the
-// pixel.
+// pixel. Variant CROSSING: surface_side.glsl.
 #include "frame/gbuffer.lib.glsl"
 #include "frame/view.shared.h"
-#include "water/surface_grid.glsl"
+#include "water/surface_side.glsl"
 
 layout(location = 0) in vec3 vPosition;
 
@@ -31,7 +31,13 @@ void main() {
     // Seen from above, the normal is turned to the eye as far as needed; from below, away from it.
     vec3 normal = normalize(vec3(-wave.slope.x, 1.0, -wave.slope.y));
     vec3 toEye = eye.w > 0.5 ? worldFromView[2].xyz : normalize(eye.xyz - vPosition);
-    float side = gl_FrontFacing ? 1.0 : -1.0;
+    // Which side is seen follows from where the ray begins: triangles seen edge on turn over as they are rasterised. Only
+    // an eye beside the area may see either.
+    vec4 near = viewFromClip * vec4(2.0 * gl_FragCoord.xy * size.zw - 1.0, 1.0, 1.0);
+    vec3 begin = (worldFromView * vec4(near.xyz / near.w, 1.0)).xyz;
+    bool beside = !inArea(begin.xz) && begin.y < waterBlock.shape.x + waterBlock.shape.w;
+    bool above = beside ? gl_FrontFacing : !underWater(begin);
+    float side = above ? 1.0 : -1.0;
     float facing = side * dot(normal, toEye);
     if (facing < kLeastFacing) normal = normalize(normal + side * toEye * (kLeastFacing - facing));
     outDepth = -side * (viewFromWorld * vec4(vPosition, 1.0)).z;

@@ -1,10 +1,10 @@
 #version 450 core
 // Each pixel's way through the water (WaterPaths::path). A ray that enters through the surface is bent, and followed on
 // the screen to where the opaque surfaces' depth meets it. Drawn with fullscreen.vert.
-// Variant CROSSING: the eye is so near to the surface that pixels begin on both sides of it.
+// Variant CROSSING: surface_side.glsl.
 #include "frame/view.shared.h"
 #include "water/paths.io.glsl"
-#include "water/surface_grid.glsl"
+#include "water/surface_side.glsl"
 
 layout(binding = SHOAL_UNIT_PASS + 0) uniform sampler2D opaqueDepth;   // R32F view depth
 
@@ -12,31 +12,19 @@ layout(location = 0) out vec4 outPath;
 
 const int kSearchSteps = 8;
 const float kFirstGuess = 100.0;    // metres at most that the search begins at
+const float kLargestBend = 0.02;    // of the inverse depth, over which neighbouring texels are not one plane
 const float kHitTolerance = 0.05;   // of the path's length: how far off the opaque surface a bent ray may end
 
-// Height of the drawn grid's finest level: what the near plane cuts, cell by cell.
-float gridHeightAt(vec2 xz) {
-    float cell = surfaceBlock.grid.x;
-    vec2 at = xz / cell, corner = floor(at), f = at - corner;
-    vec2 third = f.x >= f.y ? vec2(1, 0) : vec2(0, 1);
-    float low = min(f.x, f.y), high = max(f.x, f.y);
-    return gridPoint(corner, cell, false).y * (1.0 - high) + gridPoint(corner + third, cell, false).y * (high - low) +
-           gridPoint(corner + vec2(1.0), cell, false).y * low;
-}
-
-bool inArea(vec2 xz) {
-    return all(greaterThan(xz, waterBlock.area.xy)) && all(lessThan(xz, waterBlock.area.zw));
-}
-
-// Whether the water reaches over a point. ask: whether anybody wants to know.
-bool underWater(vec3 p, bool ask) {
-    float level = waterBlock.shape.x;
-#ifdef CROSSING
-    // A loop, for llvmpipe skips nothing else: pixels whose answer is plain pay nothing.
-    int count = ask && abs(p.y - level) <= waterBlock.shape.w ? 1 : 0;
-    for (int i = 0; i < count; ++i) level = gridHeightAt(p.xz);
-#endif
-    return p.y < level && inArea(p.xz);
+// View depth of the opaque surfaces between texels: its inverse is even over a plane on the screen; where the four
+// texels lie on no plane, that of the nearest.
+float opaqueDepthAt(vec2 pixel) {
+    vec2 corner = floor(pixel - 0.5), f = pixel - 0.5 - corner;
+    vec4 z = textureGather(opaqueDepth, (corner + 1.0) * size.zw, 0);   // (0, 1), (1, 1), (1, 0), (0, 0)
+    vec4 inverse = mix(vec4(1.0 / kFarthestWater), 1.0 / z, greaterThan(z, vec4(0.0)));
+    vec2 row = mix(inverse.wx, inverse.zy, f.x);
+    float nearest = f.y < 0.5 ? (f.x < 0.5 ? inverse.w : inverse.z) : (f.x < 0.5 ? inverse.x : inverse.y);
+    float bend = abs(inverse.x + inverse.z - inverse.y - inverse.w);
+    return 1.0 / (bend < kLargestBend * nearest ? mix(row.x, row.y, f.y) : nearest);
 }
 
 // Mirrored at the picture's borders: what lies beyond them is not known, and looks like what lies before.
@@ -62,9 +50,14 @@ vec3 followBent(vec3 start, vec3 direction, vec2 ownPixel, vec3 straight, bool a
     for (int i = 0; i < rounds; ++i) {
         vec4 clip = clip0 + clip1 * t;
         vec2 pixel = (clip.xy / max(clip.w, 1e-4) * 0.5 + 0.5) * size.xy;
-        vec2 inside = clamp(pixel, vec2(0.5), size.xy - 0.5);
-        float opaque = texelFetch(opaqueDepth, ivec2(inside), 0).x;
-        opaque = opaque > 0.0 ? opaque : kFarthestWater;
+        bool outside = any(lessThan(pixel, vec2(0.0))) || any(greaterThan(pixel, size.xy));
+        if (outside && low == 0.0) {
+            // Nothing is known there: as if it was level.
+            best = vec3(pixel, t);
+            bestMiss = 0.0;
+            break;
+        }
+        float opaque = opaqueDepthAt(clamp(pixel, vec2(0.5), size.xy - 0.5));
         PixelRay ray = rayOfPixel(pixel);
         vec3 hit = ray.origin + ray.step * opaque;
         float miss = distance(hit, start + direction * t), g = opaque - (depth0 + depth1 * t);
@@ -108,7 +101,7 @@ void main() {
     // Not bent: from the eye, or in through a side of the area.
     vec3 nearPoint = ray.origin + ray.step * depthRange.x;
     bool aroundArea = !inArea(nearPoint.xz);
-    bool fromEye = drawn && !aroundArea && (surface < 0.0 || underWater(nearPoint, surface == 0.0));
+    bool fromEye = drawn && !aroundArea && (surface < 0.0 || underWater(nearPoint));
     vec2 span = waterSpan(ray.origin, direction, fromEye || surface < 0.0 ? 1e9 : waterBlock.shape.x);
     float begin = fromEye ? 0.0 : span.x;
     float end = min(min(opaqueM, span.y), surface < 0.0 ? -surface * stepM : 1e30);

@@ -6,11 +6,11 @@
 namespace shoal::water {
 namespace {
 
-constexpr float kFirstScale = 0.5f;    // metres: down to here slices lie about evenly, below exponentially
-constexpr float kLeastDeepest = 8;     // metres
-constexpr float kOpticalDepth = 7;     // of the clearest channel, below which no light is worth tracing
-constexpr float kMostLight = 16;       // shaft_photons.comp
-constexpr float kWidestRim = 1.0f / 8; // of a square
+constexpr float kFirstScale = 0.5f;     // metres: down to here slices lie about evenly, below exponentially
+constexpr float kLeastDeepest = 8;      // metres
+constexpr float kOpticalDepth = 7;      // of the clearest channel, below which no light is worth tracing
+constexpr float kMostLight = 16;        // shaft_photons.comp
+constexpr float kWidestRim = 1.0f / 8;  // of a square
 constexpr int kSunSlots = 3;
 
 // Slices of a slot keep a multiple of 8 texels a side, whichever number of photons is asked for.

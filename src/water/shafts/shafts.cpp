@@ -28,6 +28,13 @@ void bindInput(int unit, const gl::TextureView& texture) {
     glBindSampler(GLuint(unit), 0);
 }
 
+// A small pixel's middle falls on the corner of four full pixels where it is an even number of them wide: the upper
+// right one is marched.
+float marchedOffset(float pixels) {
+    const float whole = std::round(pixels);
+    return std::abs(pixels - whole) < 1e-3f && std::fmod(whole, 2.0f) == 0 ? 0.5f : 0.0f;
+}
+
 }  // namespace
 
 struct Shafts::State {
@@ -132,9 +139,9 @@ void Shafts::render(const frame::Context& context, const ShaftParams& params, co
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
-void Shafts::march(const frame::Context& context, const ShaftParams& params, const Body& body,
-                   const BodyLights& lights, const LightViews& views, const WaterPaths& paths,
-                   gl::TextureView viewDepth, const ShaftOutputs& outputs) {
+void Shafts::march(const frame::Context& context, const ShaftParams& params, const Body& body, const BodyLights& lights,
+                   const LightViews& views, const WaterPaths& paths, gl::TextureView viewDepth,
+                   const ShaftOutputs& outputs) {
     State& s = *state_;
     (void)views;
     if (!params.enabled || !scatters(body)) {
@@ -151,6 +158,7 @@ void Shafts::march(const frame::Context& context, const ShaftParams& params, con
     const double sample = double(context.sampleIndex);
     s.current.march = {float(std::clamp(params.steps, 1, 1024)), 1 / scale, float(std::fmod(sample * 0.6180339887, 1)),
                        float(std::fmod(sample * 512 * 17, 65536))};
+    s.current.small = {marchedOffset(1 / scale), 0, 0, 0};
     s.block.write(s.current);
     s.block.bindUniform(SHOAL_BLOCK_WATER_PASS);
     s.water.write(makeWaterBlock(body, lights));

@@ -33,6 +33,13 @@ std::vector<std::uint16_t> gridIndices() {
     return indices;
 }
 
+// Whether pixels may begin on both sides of the surface: points of the near plane lie within its diagonal of the eye.
+bool mayCross(const light::View& view, const Body& body) {
+    const float height = body.waves ? float(body.waves->bounds().height) : 0.0f;
+    const float reach = length(transformPoint(view.viewFromClip, {1, 1, 1})) * 1.5f + view.nearZ;
+    return body.params.surfaceVisible && std::abs(view.eye.y - body.params.level) < height + reach;
+}
+
 }  // namespace
 
 struct Surface::State {
@@ -40,8 +47,9 @@ struct Surface::State {
 
     gl::Device& device;
     frame::Fullscreen fullscreen;
-    const gl::Program *mesh = nullptr, *path = nullptr, *pathCrossing = nullptr, *terms = nullptr;
-    const gl::Program* compose[2] = {};  // without and with foam
+    const gl::Program *mesh[2] = {}, *path[2] = {};  // away from the surface; so near that pixels begin on both sides
+    const gl::Program* compose[2] = {};              // without and with foam
+    const gl::Program* terms = nullptr;
     gl::BlockBuffer<frame::ViewBlock> viewBlock;
     gl::BlockBuffer<WaterBlock> waterBlock;
     gl::BlockBuffer<SurfaceBlock> block;
@@ -64,17 +72,20 @@ struct Surface::State {
     Result<void> resize(int width, int height);
     Result<void> resizeTerms(int width, int height);
     SurfaceBlock blockFor(const SurfaceParams& params, const SurfaceInputs* inputs) const;
-    void drawMesh(const frame::Context& context, const Body& body, gl::TextureView opaque);
+    void drawMesh(const frame::Context& context, const Body& body, gl::TextureView opaque, bool crossing);
     void bindPaths() const;
     void drawTerms(const frame::Context& context, const SurfaceInputs& inputs);
 };
 
 Result<void> Surface::State::makePrograms() {
-    SHOAL_TRY_ASSIGN(mesh, device.programs().get({{"water/surface_mesh.vert", "water/surface_mesh.frag"},
-                                                  {},
-                                                  "water surface"}));
-    SHOAL_TRY_ASSIGN(path, frame::fullscreenProgram(device, "water/surface_path.frag"));
-    SHOAL_TRY_ASSIGN(pathCrossing, frame::fullscreenProgram(device, "water/surface_path.frag", {{"CROSSING", "1"}}));
+    for (const int crossing : {0, 1}) {
+        std::vector<std::pair<std::string, std::string>> defines;
+        if (crossing) defines.emplace_back("CROSSING", "1");
+        SHOAL_TRY_ASSIGN(
+            mesh[crossing],
+            device.programs().get({{"water/surface_mesh.vert", "water/surface_mesh.frag"}, defines, "water surface"}));
+        SHOAL_TRY_ASSIGN(path[crossing], frame::fullscreenProgram(device, "water/surface_path.frag", defines));
+    }
     SHOAL_TRY_ASSIGN(compose[0], frame::fullscreenProgram(device, "water/surface_compose.frag"));
     SHOAL_TRY_ASSIGN(compose[1], frame::fullscreenProgram(device, "water/surface_compose.frag", {{"FOAM", "1"}}));
     SHOAL_TRY_ASSIGN(terms, frame::fullscreenProgram(device, "water/surface_terms.frag"));
@@ -139,7 +150,7 @@ SurfaceBlock Surface::State::blockFor(const SurfaceParams& params, const Surface
     return b;
 }
 
-void Surface::State::drawMesh(const frame::Context& context, const Body& body, gl::TextureView opaque) {
+void Surface::State::drawMesh(const frame::Context& context, const Body& body, gl::TextureView opaque, bool crossing) {
     const gl::PassScope pass(context.timer, "water surface");
     meshTarget.bind();
     const float zero[4] = {};
@@ -157,7 +168,7 @@ void Surface::State::drawMesh(const frame::Context& context, const Body& body, g
         glDisable(off);
     glFrontFace(GL_CCW);
     glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
-    mesh->use();
+    mesh[crossing]->use();
     vertices.bind();
     glDrawElementsInstanced(GL_TRIANGLES, kIndexCount, GL_UNSIGNED_SHORT, nullptr, GLsizei(grid.blocks.size()));
 }
@@ -223,20 +234,15 @@ void Surface::trace(const frame::Context& context, const SurfaceParams& params, 
     s.block.write(s.blockFor(params, nullptr));
     s.block.bindUniform(SHOAL_BLOCK_WATER_PASS);
     body.gpuWaves->bind();
-    s.drawMesh(context, body, depth);
+    const bool crossing = mayCross(context.view, body);
+    s.drawMesh(context, body, depth, crossing);
 
     const gl::PassScope pass(context.timer, "water path");
     s.pathTarget.bind();
     s.bindPaths();
     gl::bindTexture(SHOAL_UNIT_PASS, viewDepth);
     glBindSampler(SHOAL_UNIT_PASS, 0);
-    // Points of the near plane lie within its diagonal of the eye.
-    const light::View& view = context.view;
-    const Vec3 corner = transformPoint(view.viewFromClip, {1, 1, 1});
-    const float height = body.waves ? float(body.waves->bounds().height) : 0.0f;
-    const bool crossing = body.params.surfaceVisible &&
-                          std::abs(view.eye.y - body.params.level) < height + 1.5f * length(corner) + view.nearZ;
-    s.fullscreen.draw(crossing ? *s.pathCrossing : *s.path);
+    s.fullscreen.draw(*s.path[crossing]);
 }
 
 WaterPaths Surface::paths() const {

@@ -6,13 +6,13 @@
 namespace shoal::water {
 namespace {
 
-constexpr int kBlocks = 8;           // blocks a side of a level
-constexpr float kSnapCells = 32;     // levels move by so many cells: a block's width in the next level
+constexpr int kBlocks = 8;        // blocks a side of a level
+constexpr float kSnapCells = 32;  // levels move by so many cells: a block's width in the next level
 constexpr float kLeastCell = 1.0f / 64, kLargestCell = 1024;  // of the finest level, metres
 constexpr float kCellsPerHeight = 24;                         // finest cells in the eye's height above the water
 constexpr float kCellsPerWave = 8;                            // cells in the shortest wave need not be smaller
 constexpr float kCellsPerView = 96;                           // cells across an orthographic view's height
-constexpr float kFarthest = 6e4f;    // metres that the levels reach from the eye before the rim goes to the horizon
+constexpr float kFarthest = 6e4f;  // metres that the levels reach from the eye before the rim goes to the horizon
 constexpr int kMostLevels = 28;
 
 float powerOfTwoBelow(float x) { return std::exp2(std::floor(std::log2(x))); }
@@ -31,7 +31,7 @@ bool seen(const Mat4& clipFromWorld, const Square& s, float low, float high) {
     for (int i = 0; i < 8; ++i) {
         const Vec4 c = clipFromWorld * Vec4{i & 1 ? s.hi.x : s.lo.x, i & 2 ? high : low, i & 4 ? s.hi.y : s.lo.y, 1};
         const float w = 1.02f * c.w;  // the picture moves by part of a pixel
-        outside[0] += c.x < -w, outside[1] += c.x > w, outside[2] += c.y < -w, outside[3] += c.y > w;
+        outside[0] += c.x<-w, outside[1] += c.x> w, outside[2] += c.y<-w, outside[3] += c.y> w;
         outside[4] += c.z > c.w;
     }
     for (const int count : outside)
@@ -86,9 +86,9 @@ void layOutGrid(const light::View& view, const Body& body, SurfaceGrid& grid) {
                 const Square own{lo, {lo.x + block, lo.y + block}};
                 const bool covered = level > 0 && own.lo.x >= inner.lo.x && own.hi.x <= inner.hi.x &&
                                      own.lo.y >= inner.lo.y && own.hi.y <= inner.hi.y;
-                const int rim = last ? (i == 0 ? 1 : 0) + (i == kBlocks - 1 ? 2 : 0) + (j == 0 ? 4 : 0) +
-                                           (j == kBlocks - 1 ? 8 : 0)
-                                     : 0;
+                const int rim =
+                    last ? (i == 0 ? 1 : 0) + (i == kBlocks - 1 ? 2 : 0) + (j == 0 ? 4 : 0) + (j == kBlocks - 1 ? 8 : 0)
+                         : 0;
                 if (covered || (rim == 0 && (!overlaps(own, body.params) || !seen(clipFromWorld, own, low, high))))
                     continue;
                 grid.blocks.push_back({{lo.x / cell, lo.y / cell, cell, float(rim)}});

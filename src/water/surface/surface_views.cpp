@@ -1,5 +1,5 @@
-// A mirrored eye is kept rigid: position, forward and up are mirrored, so that right points the other way and the picture
-// is flipped. World points are projected into it as into any other.
+// A mirrored eye is kept rigid: position, forward and up are mirrored, so that right points the other way and the
+// picture is flipped. World points are projected into it as into any other.
 #include "water/surface/surface_views.h"
 
 #include <cmath>
@@ -7,8 +7,8 @@
 namespace shoal::water {
 namespace {
 
-constexpr float kWiden = 1.15f;    // waves mirror more than a level surface: beyond the picture's borders
-constexpr int kRays = 9;           // looked at a side of the picture
+constexpr float kWiden = 1.15f;               // waves mirror more than a level surface: beyond the picture's borders
+constexpr int kRays = 9;                      // looked at a side of the picture
 constexpr float kWidestWindow = radians(62);  // half angle of the view through the window
 
 Vec3 column(const Mat4& m, int i) { return {m(0, i), m(1, i), m(2, i)}; }

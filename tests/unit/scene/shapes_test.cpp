@@ -245,6 +245,25 @@ TEST(Shapes, TextureRunsAlongTheTangentAndUpThePicture) {
     }
 }
 
+TEST(Shapes, ACylindersCapsAreTexturedInMetres) {
+    for (const char* height : {"0.5", "1.5", "6"}) {
+        const Model model =
+            make("cylinder", {{"surface", "stone"}, {"radius", "0.34"}, {"height", height}, {"bevel", "0.03"}});
+        const Primitive& p = model.meshes[0].primitives[0];
+        std::size_t cap = 0;
+        for (std::size_t i = 0; i < p.indices.size(); i += 3) {
+            const std::uint32_t a = p.indices[i], b = p.indices[i + 1], c = p.indices[i + 2];
+            const Vec3 n = cross(p.positions[b] - p.positions[a], p.positions[c] - p.positions[a]);
+            if (std::abs(n.y) < 0.999f * length(n)) continue;
+            const Vec2 d1 = p.uv0[b] - p.uv0[a], d2 = p.uv0[c] - p.uv0[a];
+            // A repetition covers 1.6 m: the triangle in texture space is as large as on the cap.
+            EXPECT_NEAR(std::abs(d1.x * d2.y - d2.x * d1.y) * 1.6f * 1.6f / length(n), 1, 1e-3) << height;
+            ++cap;
+        }
+        EXPECT_EQ(cap, 128u);
+    }
+}
+
 TEST(Shapes, ScenesHaveTheirMeasures) {
     const Bounds tank = boundsOf(make("tank", {{"width", "4"}, {"depth", "3"}, {"height", "2"}, {"thickness", "0.1"}}));
     EXPECT_NEAR(tank.size().x, 4.2, 0.2);
