@@ -13,9 +13,8 @@ namespace {
 
 constexpr int kCells = 16, kTexels = 256;
 constexpr double kFiner = 0.35;  // amplitude of the second octave over the first
-// What the cubic between texels may pass the noise by: with 8 texels a cell its slope is off by at most
-// 360 / 8^3 sqrt(3) / 216 = 0.6 % an axis of a gradient's height over the spacing (360: third derivative of the
-// fade's).
+// What the cubic between texels may pass the noise by: with 8 texels a cell its slope is off by 360 / 8^3 sqrt(3) / 216
+// = 0.6 % an axis, of the height of a gradient over the spacing (360: the fade's greatest fourth derivative).
 constexpr double kBetweenTexels = 1.02;
 
 struct Fade {  // weight of the nearer and of the farther lattice point, and its derivative by the coordinate
