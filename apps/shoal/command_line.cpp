@@ -123,7 +123,8 @@ void addReference(CLI::App& app, ReferenceVerbOptions& o) {
         "light\n"
         "that the surface reflects, holes of masked materials.\n"
         "\nExample:\n"
-        "  shoal reference scenes/tank.toml -o tank.exr --size 160x90 --rays 1000000 --steps 64\n");
+        "  shoal reference scenes/tank.toml -o tank.exr --size 160x90 --rays 1000000 --steps 64 --set "
+        "water.level=1.4\n");
 }
 
 void addDemo(CLI::App& app, DemoOptions& o) {
@@ -145,6 +146,8 @@ void addBench(CLI::App& app, BenchOptions& o) {
     verb->add_option("--repetitions", o.repetitions,
                      "interleaved repetitions, at least 7 for a figure that is quoted; default 7")
         ->check(CLI::Range(1, 1000));
+    verb->add_option("--config", o.config,
+                     "water: only the row of this configuration of the paper: paper-a, paper-b, paper-c, paper-d");
     verb->add_option("--data", o.dataDir, "folder with models to measure on; default: SHOAL_DATA, else ../shared/data");
     verb->add_option("--device", o.device, kDeviceHelp);
     verb->footer("\nExample:\n  shoal bench frame.startup_ms --repetitions 1\n");

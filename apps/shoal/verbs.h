@@ -66,6 +66,7 @@ int demo(const DemoOptions& options);
 struct BenchOptions {
     std::vector<std::string> names;
     std::string jsonFile, device = "auto", dataDir;
+    std::string config;  // one of the paper's configurations, "paper-a" to "paper-d"; "" for all rows
     bool peers = false, list = false;
     int repetitions = 7;
 };

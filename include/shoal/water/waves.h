@@ -94,12 +94,13 @@ struct PlaneWave {
 struct CircularWave {
     float amplitude = 0, k = 0, phase = 0, centerX = 0, centerZ = 0;  // a cos(k r + phase); smooth at r = 0
 };
+// Between texels the height is the bicubic Hermite surface of its corners: slopes are continuous, and slopes and second
+// derivatives are those of the height.
 struct WaveTile {
     float periodM = 1;
     int size = 0;  // texels a side, a power of two
     std::vector<float>
-        height;  // size^2 texels x (h, dh/dx, dh/dz, 0); texel (i, j) at x = i / size * periodM, z = j ...
-    std::vector<float> curvature;  // size^2 texels x (hxx, hxz, hzz, 0)
+        texels;  // size^2 x (h, dh/dx, dh/dz, d2h/dxdz); texel (i, j) at x = i / size * periodM, z = j ...
 };
 
 class WaveField {

@@ -6,6 +6,8 @@
 namespace shoal::water {
 namespace {
 
+constexpr float kWallM = 0.02f;  // a basin's walls stand where its water ends: they are lit too
+
 Vec4 withW(Vec3 v, float w) { return {v.x, v.y, v.z, w}; }
 
 // Metres that a pixel of a buffer so high covers, 1 m away (orthographic: anywhere).
@@ -73,7 +75,8 @@ PaperBlock makePaperBlock(const frame::Context& context, const PaperParams& para
     block.clipFromWorld = clipFromView * eye.viewFromWorld;
     setLight(block, light);
     setPaperPixels(block, context);
-    block.area = {body.params.areaMin.x, body.params.areaMin.y, body.params.areaMax.x, body.params.areaMax.y};
+    const BodyParams& b = body.params;
+    block.area = {b.areaMin.x - kWallM, b.areaMin.y - kWallM, b.areaMax.x + kWallM, b.areaMax.y + kWallM};
     block.water = {body.params.level, body.optics.index, float(kPaperShadowResolution), params.waterMask ? 1.0f : 0.0f};
     block.eye = withW(eye.eye, eye.nearZ);
     const Mat4& w = eye.worldFromView;

@@ -143,6 +143,10 @@ void LightViews::prepare(const frame::Context& context, const LightViewParams& p
         if (fit.airDrawn) ask(s, s.airLayers, s.airDepth, index, fit.air, -1, 0);
     }
     fillInner(fits, s.setup.resolution, block);
+    for (std::size_t i = fits.size(), end = i; i-- > 0;) {
+        if (i + 1 < fits.size() && fits[i].record.rows.z != fits[i + 1].record.rows.z) end = i + 1;
+        block.slots[i].rows.z = float(end);
+    }
     for (std::size_t i = 2 * fits.size(); i < s.litLayers.size(); ++i) s.litLayers[i].asked = false;
     for (std::size_t i = 0; i < s.airLayers.size(); ++i)
         if (i >= fits.size() || !fits[i].airDrawn) s.airLayers[i].asked = false;

@@ -25,7 +25,7 @@ struct Photons::State {
     PhotonSetup setup;
     const gl::Program* deposit[kVariants] = {};
     const gl::Program *resolve = nullptr, *disc = nullptr, *mips = nullptr;
-    const gl::Program* lookup[2] = {};  // without normals, with
+    const gl::Program *lookup = nullptr, *lookupDeep = nullptr, *lookupNoNormals = nullptr;
     gl::Buffer deposits;                // of one slot at a time
     gl::Texture sharp;                  // its two layers before the light's disc blurs them
     gl::Texture maps;
@@ -63,9 +63,12 @@ Result<void> makePrograms(gl::Device& device, State& s) {
     SHOAL_TRY_ASSIGN(s.resolve, device.programs().get({{"water/caustic_resolve.comp"}, {}, "caustic resolve"}));
     SHOAL_TRY_ASSIGN(s.disc, device.programs().get({{"water/caustic_disc.comp"}, {}, "caustic disc"}));
     SHOAL_TRY_ASSIGN(s.mips, device.programs().get({{"water/caustic_mips.comp"}, {}, "caustic mips"}));
-    SHOAL_TRY_ASSIGN(s.lookup[0],
-                     device.programs().get({{"water/caustic_lookup.comp"}, {{"NO_NORMALS", ""}}, "caustic lookup"}));
-    SHOAL_TRY_ASSIGN(s.lookup[1], device.programs().get({{"water/caustic_lookup.comp"}, {}, "caustic lookup"}));
+    const auto lookup = [&](std::vector<std::pair<std::string, std::string>> defines) {
+        return device.programs().get({{"water/caustic_lookup.comp"}, std::move(defines), "caustic lookup"});
+    };
+    SHOAL_TRY_ASSIGN(s.lookup, lookup({}));
+    SHOAL_TRY_ASSIGN(s.lookupDeep, lookup({{"NO_WATERLINE", ""}, {"NO_LAMPS", ""}}));
+    SHOAL_TRY_ASSIGN(s.lookupNoNormals, lookup({{"NO_NORMALS", ""}}));
     return {};
 }
 
@@ -259,7 +262,10 @@ void Photons::resolve(const frame::Context& context, const Body& body, const Bod
     for (const int unit : {0, 1, SHOAL_UNIT_CAUSTIC_MAPS}) glBindSampler(GLuint(unit), 0);
     gl::bindImage(0, outputs.direct, GL_WRITE_ONLY);
     gl::bindImage(1, outputs.ambient ? outputs.ambient : outputs.direct, GL_WRITE_ONLY);
-    const gl::Program& program = *s.lookup[normals];
+    const bool lamps = std::any_of(views.slots().begin(), views.slots().end(),
+                                   [](const LightSlot& slot) { return slot.light >= 0; });
+    const bool deep = !views.airDrawn() && !lamps;
+    const gl::Program& program = *(!normals ? s.lookupNoNormals : deep ? s.lookupDeep : s.lookup);
     program.set(0, outputs.ambient ? 1 : 0);
     program.dispatch(context.view.width, context.view.height);
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT);

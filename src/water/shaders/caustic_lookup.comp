@@ -1,6 +1,8 @@
 #version 450 core
 // Light on each pixel's surface that came through the water's surface or was thrown up by it, from the caustic maps;
-// and the smooth light of sky and scattered sun under water. Variant NO_NORMALS: normals are taken from the depth.
+// and the smooth light of sky and scattered sun under water. Variants: NO_NORMALS, normals are taken from the depth;
+// NO_WATERLINE, all surfaces are deeper than any wave; NO_LAMPS, the sun alone.
+// llvmpipe runs every branch and every loop at least once: hence few loops, which most pixels leave after one turn.
 // Sources: [Mobley 1994] Light and Water, for downwelling irradiance falling as exp(-Kd D).
 #include "water/caustic.shared.h"
 #include "frame/gbuffer.lib.glsl"
@@ -52,78 +54,62 @@ vec3 normalAt(ivec2 pixel, vec3 position, float depth) {
 #endif
 }
 
-// Where light of the slot comes from at p, over the height of that way: the way along 1 m of travel, negative.
+// Where light of the slot comes from at p: that way along 1 m of height.
 vec3 towardsLight(vec3 p, int slot) {
-    vec4 source = lightSpace.slots[slot].source, mean = lightSpace.slots[slot].mean;
-    if (source.w < 0.5) return vec3(-mean.x, -mean.w, -mean.y);
+    vec4 mean = lightSpace.slots[slot].mean;
+#ifndef NO_LAMPS
+    vec4 source = lightSpace.slots[slot].source;
     vec3 way = source.xyz - p;
-    return way / max(abs(way.y), 1e-3);
+    if (source.w > 0.5) return way / max(abs(way.y), 1e-3);
+#endif
+    return vec3(-mean.x, -mean.w, -mean.y);
 }
 
-// The map's value for a surface at light-space place s: bilinear over what is seen of one height. slope: of the surface
-// in light space. need: false skips it.
-float mapValue(vec2 s, float height, float slope, float level, int slot, bool need) {
+// The map's value for a surface at light-space place s: bilinear over what is seen of one height. group: any slot of
+// the map's group; slope: of the surface in light space; pixelM: metres a pixel.
+float mapValue(vec2 s, float height, float slope, float pixelM, int group, int slot, vec4 place) {
     int size = int(lightSpace.counts.y);
-    vec4 rows = lightSpace.slots[slot].rows, heights = lightSpace.slots[slot].height, place = lightSpace.slots[slot].place;
-    float side = lightSpace.slots[slot].mean.w;
+    vec4 rows = lightSpace.slots[group].rows, heights = lightSpace.slots[group].height;
+    float side = lightSpace.slots[group].mean.w;
     float tolerance = kGapM + 1.5 * place.z * slope;
     // A pixel that covers many texels looks at a coarser mip. Squares begin at whole texels of all mips.
-    int mip = int(clamp(level, 0.0, causticBlock.maps.x - 1.0));
+    int mip = int(min(log2(max(1.2 * pixelM * place.w, 1.0)), causticBlock.maps.x - 1.0));
     vec2 at = s * (place.w * exp2(-float(mip))) - 0.5, low = floor(at), f = at - low;
     ivec2 corner = ivec2(low) - (ivec2(floor(place.xy * place.w + 0.5)) >> mip);
     float sum = 0.0;
-    int taps = need ? 4 : 0;
-    for (int i = 0; i < taps; ++i) {
-        ivec2 bit = ivec2(i & 1, i >> 1);
+    int behind = 0;   // bits of taps where the surface lies behind the first layer
+    // Four taps of the first layer, four more of the second where they are needed.
+    for (int i = 0; i < 4 || (i < 8 && behind != 0); ++i) {
+        ivec2 bit = ivec2(i & 1, (i >> 1) & 1);
+        int layer = 2 * slot + (i >> 2);
         vec2 w = mix(1.0 - f, f, vec2(bit));
         ivec2 coarse = clamp(corner + bit, ivec2(0), ivec2((size >> mip) - 1));
         ivec2 texel = (coarse << mip) + ((1 << mip) >> 1);
-        ivec3 row = ivec3(texel.x, int(rows.x) * texel.y + int(rows.y), 2 * slot);
-        float first = texelFetch(litDepth, row, 0).x;
-        float behind = side * (height - heightOfDepth(first, heights));
-        int layer = 0;
-        if (first > 0.0 && behind > tolerance) {
-            float second = texelFetch(litDepth, row + ivec3(0, 0, 1), 0).x;
-            layer = second > 0.0 && side * (height - heightOfDepth(second, heights)) > tolerance ? -1 : 1;
-        }
-        if (layer >= 0) sum += w.x * w.y * texelFetch(causticMaps, ivec3(coarse, 2 * slot + layer), mip).x;
+        float depth = texelFetch(litDepth, ivec3(texel.x, int(rows.x) * texel.y + int(rows.y), layer), 0).x;
+        bool hidden = depth > 0.0 && side * (height - heightOfDepth(depth, heights)) > tolerance;
+        bool counts = i < 4 || (behind & (1 << (i & 3))) != 0;
+        if (i < 4 && hidden) behind |= 1 << i;
+        float value = texelFetch(causticMaps, ivec3(coarse, layer), mip).x;
+        sum += counts && !hidden ? w.x * w.y * value : 0.0;
     }
     return sum;
 }
 
 // 0 outside of a slot's square, 1 inside; a finer slot fades towards the rim.
-float insideSlot(vec2 s, int slot, bool fades) {
-    vec2 t = lightTexelOf(s, slot), rim = min(t, lightSpace.counts.y - t);
+float insideSlot(vec2 s, vec4 place, bool fades) {
+    vec2 t = (s - place.xy) * place.w, rim = min(t, lightSpace.counts.y - t);
     float inwards = min(rim.x, rim.y);
     return fades ? clamp((inwards - 1.0) / kRimTexels, 0.0, 1.0) : step(0.0, inwards);
 }
 
-// Light of level water, for what lies outside of all maps.
-vec3 levelWaterSun(vec3 p, vec3 normal) {
-    float depth = max(waterBlock.shape.x - p.y, 0.0), cosine = -waterBlock.sunRefracted.y;
-    float onLevel = waterBlock.toSun.y * waterBlock.sunRefracted.w;
-    float facing = max(-dot(normal, waterBlock.sunRefracted.xyz), 0.0) / cosine;
-    return waterBlock.sunIrradiance.rgb * (onLevel * facing) * exp(-waterBlock.beamAttenuation.rgb * (depth / cosine));
-}
-
 bool isUnderWater(vec3 p) {
     vec4 area = waterBlock.area;
-    float above = p.y - waterBlock.shape.x, bound = waterBlock.shape.w;
     bool inArea = all(greaterThanEqual(p.xz, area.xy)) && all(lessThanEqual(p.xz, area.zw));
     float surface = 0.0;
-    bool between = abs(above) <= bound && bound > 0.0;
-    int steps = between ? 1 : 0;   // a loop, for llvmpipe leaves those early
-    for (int i = 0; i < steps; ++i) surface = waveSlopeAt(p.xz).x;
-    return inArea && above < surface;
-}
-
-// Smooth light from above under water, W/m2 on a level plane: the sky's, and the sun's that left the sharp beam.
-vec3 smoothLight(float depth) {
-    vec3 sky = waterBlock.skyIrradiance.rgb * kSkyTransmittance * exp(-waterBlock.diffuseAttenuation.rgb * depth);
-    vec3 sun = waterBlock.sunIrradiance.rgb * (waterBlock.toSun.w * waterBlock.toSun.y * waterBlock.sunRefracted.w);
-    vec3 all = exp(-waterBlock.sunDiffuseAttenuation.rgb * depth);
-    vec3 beam = exp(waterBlock.beamAttenuation.rgb * (depth / waterBlock.sunRefracted.y));
-    return sky + sun * max(all - beam, vec3(0.0));
+#ifndef NO_WATERLINE
+    if (abs(p.y - waterBlock.shape.x) <= waterBlock.shape.w) surface = waveSlopeAt(p.xz).x;
+#endif
+    return inArea && p.y - waterBlock.shape.x < surface;
 }
 
 void main() {
@@ -136,38 +122,61 @@ void main() {
     bool under = there && isUnderWater(p);
     float pixelM = causticBlock.size.z * viewDepth + causticBlock.size.w;
 
-    // Without a map of its own the sun lights the floor through level water.
-    vec3 direct = under && causticBlock.maps.y == 0.0 ? levelWaterSun(p, normal) : vec3(0.0);
+    // The sun's beam through level water: what all channels lose, and what each loses beyond that.
+    float depth = max(waterBlock.shape.x - p.y, 0.0), metres = -depth / waterBlock.sunRefracted.y;
+    vec3 excess = waterBlock.beamAttenuation.rgb - waterBlock.beamAttenuation.w;
+    vec3 tint = exp(-excess * metres);
+    vec3 beam = tint * exp(-waterBlock.beamAttenuation.w * metres);
+    vec3 onLevel = waterBlock.sunIrradiance.rgb * (waterBlock.toSun.w * waterBlock.toSun.y * waterBlock.sunRefracted.w);
+
+    vec3 direct = vec3(0.0);
+    float sunLeft = causticBlock.maps.y == 0.0 ? 1.0 : 0.0;   // share of the sun that no map covers
     int count = int(lightSpace.counts.x);
-    float group = -1.0, left = 0.0;
-    for (int slot = 0; slot < count; ++slot) {
-        bool reflected = lightSpace.slots[slot].flags.y > 0.5;
-        if (lightSpace.slots[slot].rows.z != group) {
-            group = lightSpace.slots[slot].rows.z;
-            left = there && reflected != under ? 1.0 : 0.0;
+    for (int group = 0; group < count;) {
+        int end = int(lightSpace.slots[group].rows.z);
+        bool reflected = lightSpace.slots[group].flags.y > 0.5;
+        vec3 toLight = towardsLight(p, group);
+        float facing = dot(normal, toLight), tilt = length(normal.xz) / max(facing, 0.05);
+        vec2 s = lightSpaceOf(p, group);
+        float left = there && reflected != under ? 1.0 : 0.0, value = 0.0;
+        if (facing <= 0.0) left = 0.0;
+        // The finest slot there, and the next one where that fades.
+        int from = group;
+        for (int k = 0; k < 2; ++k) {
+            int slot = -1;
+            float share = 0.0;
+            vec4 place = lightSpace.slots[group].place;
+            for (int i = group; i < end; ++i) {
+                float inside = min(insideSlot(s, lightSpace.slots[i].place, i + 1 < end), left);
+                if (slot < 0 && i >= from && inside > 0.0) slot = i, share = inside, place = lightSpace.slots[i].place;
+            }
+            if (slot < 0) break;
+            value += share * mapValue(s, p.y, tilt, pixelM, group, slot, place);
+            left -= share;
+            from = slot + 1;
+            if (left <= 0.0) break;
         }
-        vec3 toLight = towardsLight(p, slot);
-        float facing = dot(normal, toLight);
-        vec2 s = lightSpaceOf(p, slot);
-        bool last = slot + 1 == count || lightSpace.slots[min(slot + 1, count - 1)].rows.z != group;
-        float share = facing > 0.0 ? min(left, insideSlot(s, slot, !last)) : 0.0;
-        left -= share;
-        float tilt = length(normal.xz) / max(facing, 0.05);
-        float mip = log2(max(pixelM * lightSpace.slots[slot].place.w, 1.0) * 1.2);
-        float value = mapValue(s, p.y, tilt, mip, slot, share > 0.0);
-        float scale = 1.0;
-        if (lightSpace.slots[slot].source.w > 0.5)
-            scale = lampScale(p.y, lightSpace.slots[slot].reach.z, lightSpace.slots[slot].source.y);
-        float metres = abs(p.y - waterBlock.shape.x) * length(toLight);
-        vec3 dimming = waterBlock.beamAttenuation.rgb - waterBlock.beamAttenuation.w;
-        vec3 through = reflected ? vec3(1.0) : exp(-dimming * metres);
-        direct += lightSpace.slots[slot].irradiance.rgb * through * (value * share * facing * scale * scale);
-        if (last && lightSpace.slots[slot].flags.x < 0.0 && !reflected && left > 0.0)
-            direct += left * levelWaterSun(p, normal);
+        vec3 through = reflected ? vec3(1.0) : tint;
+#ifndef NO_LAMPS
+        vec4 source = lightSpace.slots[group].source;
+        if (source.w > 0.5) {
+            float scale = lampScale(p.y, waterBlock.shape.x, source.y);
+            value *= scale * scale;
+            if (!reflected) through = exp(-excess * (depth * length(toLight)));
+        }
+#endif
+        direct += lightSpace.slots[group].irradiance.rgb * through * (value * max(facing, 0.0));
+        if (lightSpace.slots[group].flags.x < 0.0 && !reflected) sunLeft = left;
+        group = end;
     }
+    float sunFacing = max(dot(normal, waterBlock.sunRefracted.xyz) / waterBlock.sunRefracted.y, 0.0);
+    if (under) direct += onLevel * beam * (sunLeft * sunFacing);
     imageStore(directImage, pixel, vec4(direct, under ? 1.0 : 0.0));
+
+    // Smooth light from above: the sky's, and the sun's that left the sharp beam.
     if (!ambientWanted) return;
-    float upwards = 0.5 + 0.5 * normal.y;
-    vec3 ambient = smoothLight(max(waterBlock.shape.x - p.y, 0.0)) * (0.318309886 * mix(kFromBelow, 1.0, upwards));
+    vec3 sky = waterBlock.skyIrradiance.rgb * kSkyTransmittance * exp(-waterBlock.diffuseAttenuation.rgb * depth);
+    vec3 scattered = onLevel * max(exp(-waterBlock.sunDiffuseAttenuation.rgb * depth) - beam, vec3(0.0));
+    vec3 ambient = (sky + scattered) * (0.318309886 * mix(kFromBelow, 1.0, 0.5 + 0.5 * normal.y));
     imageStore(ambientImage, pixel, under ? vec4(ambient, 1.0) : vec4(0.0));
 }

@@ -5,7 +5,7 @@
 
 #include "water/waves.shared.h"
 
-// Two layers a tile: (h, hx, hz, hx^2 + hz^2), with mips, and (hxx, hxz, hzz, 0), without; repeats.
+// A layer a tile: (h, hx, hz, hxz); its mips hold means of (h, hx, hz, hx^2 + hz^2). Repeats.
 layout(binding = SHOAL_UNIT_WAVE_TILES) uniform sampler2DArray waveTiles;
 
 struct Wave {
@@ -38,13 +38,51 @@ void waveTexelAt(vec2 xz, int tile, out ivec2 corner, out vec2 part) {
     part = rest - restBelow;
 }
 
-// Bilinear with exact weights: a sampler's have 8 bits.
-vec4 waveTexel(ivec2 corner, vec2 f, int slice) {
+// A cell's corners: texels (h, hx, hz, hxz).
+struct WaveCell {
+    vec4 left0, right0, left1, right1;
+    vec2 part;       // 0..1 within
+    float metres;    // side
+};
+
+WaveCell waveCellAt(vec2 xz, int tile) {
+    WaveCell c;
+    ivec2 corner;
+    waveTexelAt(xz, tile, corner, c.part);
     int mask = int(waveBlock.counts.z) - 1;
     ivec2 a = corner & mask, b = (corner + 1) & mask;
-    vec4 low = mix(texelFetch(waveTiles, ivec3(a, slice), 0), texelFetch(waveTiles, ivec3(b.x, a.y, slice), 0), f.x);
-    vec4 high = mix(texelFetch(waveTiles, ivec3(a.x, b.y, slice), 0), texelFetch(waveTiles, ivec3(b, slice), 0), f.x);
-    return mix(low, high, f.y);
+    c.left0 = texelFetch(waveTiles, ivec3(a, tile), 0);
+    c.right0 = texelFetch(waveTiles, ivec3(b.x, a.y, tile), 0);
+    c.left1 = texelFetch(waveTiles, ivec3(a.x, b.y, tile), 0);
+    c.right1 = texelFetch(waveTiles, ivec3(b, tile), 0);
+    c.metres = waveBlock.tiles[tile].z;
+    return c;
+}
+
+// Weights of the cubic through p0 and p1 with derivatives d0 and d1, d metres apart: of p1 - p0, d0 and d1, for the value
+// above p0, the first and the second derivative.
+vec3 cubicValue(float u, float d) {
+    return vec3(u * u * (3.0 - 2.0 * u), u * (1.0 - u) * (1.0 - u) * d, u * u * (u - 1.0) * d);
+}
+vec3 cubicFirst(float u, float d) {
+    return vec3(6.0 * u * (1.0 - u) / d, 1.0 + u * (3.0 * u - 4.0), u * (3.0 * u - 2.0));
+}
+vec3 cubicSecond(float u, float d) {
+    return vec3((6.0 - 12.0 * u) / (d * d), (6.0 * u - 4.0) / d, (6.0 * u - 2.0) / d);
+}
+
+// (h, hz) or a derivative of them by x, in a row.
+vec2 waveAlongX(vec3 w, vec4 left, vec4 right) { return w.x * (right.xz - left.xz) + w.y * left.yw + w.z * right.yw; }
+// From the two rows' (value, derivative by z).
+float waveAlongZ(vec3 w, vec2 row0, vec2 row1) { return w.x * (row1.x - row0.x) + w.y * row0.y + w.z * row1.y; }
+
+// Height and slopes.
+vec3 waveSlopeOfCell(WaveCell c) {
+    vec3 x0 = cubicValue(c.part.x, c.metres), x1 = cubicFirst(c.part.x, c.metres);
+    vec3 z0 = cubicValue(c.part.y, c.metres), z1 = cubicFirst(c.part.y, c.metres);
+    vec2 h0 = c.left0.xz + waveAlongX(x0, c.left0, c.right0), h1 = c.left1.xz + waveAlongX(x0, c.left1, c.right1);
+    vec2 s0 = waveAlongX(x1, c.left0, c.right0), s1 = waveAlongX(x1, c.left1, c.right1);
+    return vec3(h0.x + waveAlongZ(z0, h0, h1), s0.x + waveAlongZ(z0, s0, s1), waveAlongZ(z1, h0, h1));
 }
 
 Wave waveAt(vec2 xz) {
@@ -71,13 +109,17 @@ Wave waveAt(vec2 xz) {
         w.curvature += vec3(along * e.x * e.x + across, along * e.x * e.y, along * e.y * e.y + across);
     }
     for (int i = 0; i < tileCount; ++i) {
-        ivec2 corner;
-        vec2 f;
-        waveTexelAt(xz, i, corner, f);
-        vec4 t = waveTexel(corner, f, 2 * i);
-        w.h += t.x;
-        w.slope += t.yz;
-        w.curvature += waveTexel(corner, f, 2 * i + 1).xyz;
+        WaveCell c = waveCellAt(xz, i);
+        vec3 x0 = cubicValue(c.part.x, c.metres), x1 = cubicFirst(c.part.x, c.metres);
+        vec3 x2 = cubicSecond(c.part.x, c.metres);
+        vec3 z0 = cubicValue(c.part.y, c.metres), z1 = cubicFirst(c.part.y, c.metres);
+        vec2 h0 = c.left0.xz + waveAlongX(x0, c.left0, c.right0), h1 = c.left1.xz + waveAlongX(x0, c.left1, c.right1);
+        vec2 s0 = waveAlongX(x1, c.left0, c.right0), s1 = waveAlongX(x1, c.left1, c.right1);
+        vec2 k0 = waveAlongX(x2, c.left0, c.right0), k1 = waveAlongX(x2, c.left1, c.right1);
+        w.h += h0.x + waveAlongZ(z0, h0, h1);
+        w.slope += vec2(s0.x + waveAlongZ(z0, s0, s1), waveAlongZ(z1, h0, h1));
+        w.curvature += vec3(k0.x + waveAlongZ(z0, k0, k1), waveAlongZ(z1, s0, s1),
+                            waveAlongZ(cubicSecond(c.part.y, c.metres), h0, h1));
     }
     return w;
 }
@@ -97,12 +139,7 @@ vec3 waveSlopeAt(vec2 xz) {
         float rho = sqrt(dot(away, away) + 1.0 / (k * k)), angle = k * rho + waveBlock.circular.z;
         w += waveBlock.circular.x * vec3(cos(angle), -sin(angle) * k * away / rho);
     }
-    for (int i = 0; i < tileCount; ++i) {
-        ivec2 corner;
-        vec2 f;
-        waveTexelAt(xz, i, corner, f);
-        w += waveTexel(corner, f, 2 * i).xyz;
-    }
+    for (int i = 0; i < tileCount; ++i) w += waveSlopeOfCell(waveCellAt(xz, i));
     return w;
 }
 
@@ -117,10 +154,10 @@ float waveHeightAt(vec2 xz) {
         h += waveBlock.circular.x * cos(k * sqrt(dot(away, away) + 1.0 / (k * k)) + waveBlock.circular.z);
     }
     for (int i = 0; i < tileCount; ++i) {
-        ivec2 corner;
-        vec2 f;
-        waveTexelAt(xz, i, corner, f);
-        h += waveTexel(corner, f, 2 * i).x;
+        WaveCell c = waveCellAt(xz, i);
+        vec3 x0 = cubicValue(c.part.x, c.metres);
+        vec2 h0 = c.left0.xz + waveAlongX(x0, c.left0, c.right0), h1 = c.left1.xz + waveAlongX(x0, c.left1, c.right1);
+        h += h0.x + waveAlongZ(cubicValue(c.part.y, c.metres), h0, h1);
     }
     return h;
 }
@@ -154,9 +191,11 @@ FilteredWave waveSlopeFiltered(vec2 xz, float footprintM) {
         float size = waveBlock.counts.z, level = log2(max(footprintM / waveBlock.tiles[i].z, 1.0));
         // Texel (0, 0) stands at the origin; a sampler puts its middle at half a texel.
         vec2 uv = (vec2(corner & (int(size) - 1)) + f + 0.5) / size;
-        vec4 t = textureLod(waveTiles, vec3(uv, float(2 * i)), level);
-        w += t.xyz;
-        variance += max(t.w - dot(t.yz, t.yz), 0.0);
+        vec4 t = textureLod(waveTiles, vec3(uv, float(i)), max(level, 1.0));
+        vec4 blurred = vec4(t.xyz, max(t.w - dot(t.yz, t.yz), 0.0));
+        if (level < 1.0) blurred = mix(vec4(waveSlopeOfCell(waveCellAt(xz, i)), 0.0), blurred, level);
+        w += blurred.xyz;
+        variance += blurred.w;
     }
     return FilteredWave(w.x, w.yz, variance);
 }

@@ -61,15 +61,12 @@ struct GpuWaves::State {
 
 namespace {
 
-// (h, hx, hz, hx^2 + hz^2) and its means over squares of texels: from what is lost between the mean square and the
-// square of the mean, shaders tell how much the slopes vary. On the CPU: drivers round their mip levels differently.
+// The tile, then means of (h, hx, hz, hx^2 + hz^2) over squares of texels: from what is lost between the mean square
+// and the square of the mean, shaders tell how much the slopes vary. On the CPU: drivers round their mip levels
+// differently.
 void makeLevels(const WaveTile& tile, std::vector<std::vector<float>>& levels) {
     levels.resize(std::size_t(std::bit_width(unsigned(tile.size))));
-    levels[0] = tile.height;
-    for (std::size_t t = 0; t < levels[0].size(); t += 4) {
-        float* v = &levels[0][t];
-        v[3] = v[1] * v[1] + v[2] * v[2];
-    }
+    levels[0] = tile.texels;
     for (std::size_t l = 1; l < levels.size(); ++l) {
         const std::size_t size = std::size_t(tile.size) >> l, from = 2 * size;
         levels[l].resize(size * size * 4);
@@ -78,7 +75,9 @@ void makeLevels(const WaveTile& tile, std::vector<std::vector<float>>& levels) {
                 const float* a = &levels[l - 1][(2 * j * from + 2 * i) * 4];
                 const float* b = a + from * 4;
                 float* to = &levels[l][(j * size + i) * 4];
-                for (int c = 0; c < 4; ++c) to[c] = 0.25f * ((a[c] + a[c + 4]) + (b[c] + b[c + 4]));
+                for (int c = 0; c < 3; ++c) to[c] = 0.25f * ((a[c] + a[c + 4]) + (b[c] + b[c + 4]));
+                const auto square = [&](const float* v) { return l == 1 ? v[1] * v[1] + v[2] * v[2] : v[3]; };
+                to[3] = 0.25f * ((square(a) + square(a + 4)) + (square(b) + square(b + 4)));
             }
     }
 }
@@ -107,8 +106,7 @@ void GpuWaves::State::upload(const WaveField& field) {
     parallelFor(from.size(), 1, [&](std::size_t i) { makeLevels(from[i], levels[i]); });
     for (std::size_t i = 0; i < from.size(); ++i) {
         for (std::size_t l = 0; l < levels[i].size(); ++l)
-            tiles.upload(int(l), int(2 * i), GL_RGBA, GL_FLOAT, levels[i][l].data());
-        tiles.upload(0, int(2 * i) + 1, GL_RGBA, GL_FLOAT, from[i].curvature.data());
+            tiles.upload(int(l), int(i), GL_RGBA, GL_FLOAT, levels[i][l].data());
     }
 }
 
@@ -123,7 +121,7 @@ Result<GpuWaves> GpuWaves::create(gl::Device& device) {
     state->device = &device;
     state->block = gl::BlockBuffer<WaveBlock>::create(device, "waves");
     state->block.write(WaveBlock{});
-    if (Result<void> ok = state->fit(1, 2); !ok) return ok.error();
+    if (Result<void> ok = state->fit(1, 1); !ok) return ok.error();
     return GpuWaves(std::move(state));
 }
 
@@ -131,7 +129,7 @@ Result<void> GpuWaves::update(const WaveField& field) {
     if (field.revision() == state_->revision) return {};
     const auto tiles = field.tiles();
     if (!tiles.empty())
-        if (Result<void> ok = state_->fit(tiles[0].size, int(2 * tiles.size())); !ok) return ok;
+        if (Result<void> ok = state_->fit(tiles[0].size, int(tiles.size())); !ok) return ok;
     state_->block.write(makeWaveBlock(field));
     state_->upload(field);
     state_->revision = field.revision();

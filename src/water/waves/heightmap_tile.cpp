@@ -90,42 +90,43 @@ public:
     WaveBounds bounds() const override { return bounds_; }
 
 private:
+    // Value and derivatives of the spline at its knots: with them the bicubic surface of a tile is the spline itself.
     void differentiate(const std::vector<float>& c, WaveTile& tile) const {
-        const double step = double(periodM_) / double(size_), slope = 0.5 / step, curve = 1 / (step * step);
+        const double slope = 0.5 * double(size_) / double(periodM_);
         parallelFor(size_, 8, [&](std::size_t j) {
             const std::size_t mask = size_ - 1;
             const float* rows[3] = {&c[((j + mask) & mask) * size_], &c[j * size_], &c[((j + 1) & mask) * size_]};
             for (std::size_t i = 0; i < size_; ++i) {
-                const std::size_t columns[3] = {(i + mask) & mask, i, (i + 1) & mask};
-                double smooth[3], first[3], second[3];  // along x, by row
+                const std::size_t before = (i + mask) & mask, after = (i + 1) & mask;
+                double value[3], rise[3];  // along x, by row
                 for (int r = 0; r < 3; ++r) {
-                    const double a = double(rows[r][columns[0]]), b = double(rows[r][columns[1]]),
-                                 d = double(rows[r][columns[2]]);
-                    smooth[r] = (a + 4 * b + d) / 6, first[r] = d - a, second[r] = a - 2 * b + d;
+                    const double a = double(rows[r][before]), b = double(rows[r][i]), d = double(rows[r][after]);
+                    value[r] = (a + 4 * b + d) / 6, rise[r] = d - a;
                 }
                 const auto across = [](const double* v) { return (v[0] + 4 * v[1] + v[2]) / 6; };
-                float* h = &tile.height[4 * (j * size_ + i)];
-                float* k = &tile.curvature[4 * (j * size_ + i)];
-                h[0] = float(across(smooth)), h[1] = float(slope * across(first));
-                h[2] = float(slope * (smooth[2] - smooth[0]));
-                k[0] = float(curve * across(second)), k[1] = float(slope * slope * (first[2] - first[0]));
-                k[2] = float(curve * (smooth[0] - 2 * smooth[1] + smooth[2]));
+                float* to = &tile.texels[4 * (j * size_ + i)];
+                to[0] = float(across(value)), to[1] = float(slope * across(rise));
+                to[2] = float(slope * (value[2] - value[0])), to[3] = float(slope * slope * (rise[2] - rise[0]));
             }
         });
     }
 
-    // A mix of two pictures exceeds neither.
+    // A spline stays within its coefficients, its derivatives within their differences; a mix of pictures too.
     void measure() {
-        WaveTile tile = emptyTile(periodM_, int(size_));
+        const double scale = double(size_) / double(periodM_);
         for (const std::vector<float>& c : coefficients_) {
-            differentiate(c, tile);
-            for (std::size_t t = 0; t < tile.height.size(); t += 4) {
-                const float* h = &tile.height[t];
-                bounds_.height = std::max(bounds_.height, std::abs(double(h[0])));
-                bounds_.slope = std::max(bounds_.slope, std::hypot(double(h[1]), double(h[2])));
-            }
+            double height = 0, x = 0, z = 0;
+            for (std::size_t j = 0; j < size_; ++j)
+                for (std::size_t i = 0; i < size_; ++i) {
+                    const double here = double(c[j * size_ + i]);
+                    height = std::max(height, std::abs(here));
+                    x = std::max(x, std::abs(double(c[j * size_ + (i + 1) % size_]) - here));
+                    z = std::max(z, std::abs(double(c[(j + 1) % size_ * size_ + i]) - here));
+                }
+            bounds_.height = std::max(bounds_.height, height);
+            bounds_.slope = std::max(bounds_.slope, scale * std::hypot(x, z));
         }
-        bounds_.height *= 1 + 1e-6, bounds_.slope *= 1 + 1e-6;  // of 32-bit mixing
+        bounds_.height *= 1 + 1e-5, bounds_.slope *= 1 + 1e-5;  // of 32-bit arithmetic
         bounds_.wavelength = 2 * double(periodM_) / double(size_);
     }
 

@@ -1,6 +1,6 @@
 // [Tessendorf 2001] Simulating Ocean Water, heights only; every wave has the amplitude that the spectrum gives and a
-// random phase [Longuet-Higgins 1952], so that a tile's energy is the spectrum's. Six fields (height and derivatives)
-// in three complex transforms.
+// random phase [Longuet-Higgins 1952], so that a tile's energy is the spectrum's. Four fields (height, slopes, twist)
+// in two complex transforms. Bounds between texels: [Ehlich & Zeller 1964] on trigonometric polynomials.
 #include "water/waves/ocean_tiles.h"
 
 #include <algorithm>
@@ -20,8 +20,9 @@ namespace {
 using Complex = std::complex<float>;
 
 constexpr std::size_t kSize = kOceanSize;
-// A sea is Gaussian: the field passes 5 standard deviations once in some 10^6 places. Where it would, it is scaled.
-constexpr double kSigmas = 5;
+// A sea is Gaussian: texels pass so many standard deviations once in some 10^6 (slopes: 10^8) places. Where they would,
+// the tile is scaled.
+constexpr double kHeightSigmas = 5, kSlopeSigmas = 4.5;
 
 // The waves of one wave vector (m, q) and of its opposite: together one Fourier coefficient.
 struct Mode {
@@ -93,16 +94,16 @@ public:
     bool fill(double seconds, std::vector<WaveTile>& tiles) override {
         if (tiles.empty())
             for (const Tile& tile : tiles_) tiles.push_back(emptyTile(float(tile.band.periodM), kOceanSize));
-        transforms_.resize(3 * tiles_.size());
-        parallelFor(transforms_.size(), 1,
-                    [&](std::size_t job) { setSpectrum(tiles_[job / 3], int(job % 3), seconds, transforms_[job]); });
-        // Along x for every row of the spectrum, then along z for every column of texels.
-        parallelFor(transforms_.size(), 1, [&](std::size_t job) { transforms_[job].transformFirst(); });
+        transforms_.resize(2 * tiles_.size());
+        parallelFor(transforms_.size(), 1, [&](std::size_t job) {
+            setSpectrum(tiles_[job / 2], int(job % 2), seconds, transforms_[job]);
+            transforms_[job].transformFirst();
+        });
         const std::size_t rowsAtOnce = 16, chunks = kSize / rowsAtOnce;
         peaks_.assign(tiles_.size() * chunks, {});
         parallelFor(peaks_.size(), 1, [&](std::size_t job) {
             const std::size_t t = job / chunks, from = job % chunks * rowsAtOnce;
-            peaks_[job] = writeRows(&transforms_[3 * t], from, from + rowsAtOnce, tiles[t]);
+            peaks_[job] = writeRows(&transforms_[2 * t], from, from + rowsAtOnce, tiles[t]);
         });
         for (std::size_t t = 0; t < tiles_.size(); ++t) keepWithin(t, chunks, tiles[t]);
         return true;
@@ -110,7 +111,14 @@ public:
 
     WaveBounds bounds() const override {
         WaveBounds b;
-        for (const Tile& tile : tiles_) b.height += mostHeight(tile), b.slope += mostSlope(tile);
+        for (const Tile& tile : tiles_) {
+            // Waves of `texels` texels and more pass the texels' greatest value by 1 / cos(pi / texels) at most an
+            // axis; the cubic between texels is off by (2 pi / texels)^3 sqrt(3) / 216 of the slope, and less of
+            // height.
+            const double turn = 2 * kPiD / tile.band.texels, c = std::cos(0.5 * turn);
+            const double between = (1 + 2 * turn * turn * turn * std::sqrt(3.0) / 216) / (c * c);
+            b.height += between * mostHeight(tile), b.slope += between * mostSlope(tile);
+        }
         b.wavelength = shortestM_;
         return b;
     }
@@ -119,10 +127,10 @@ private:
     struct Peak {
         float height = 0, slope2 = 0;
     };
-    static double mostHeight(const Tile& tile) { return kSigmas * std::sqrt(tile.variance); }
-    static double mostSlope(const Tile& tile) { return kSigmas * std::sqrt(tile.slopeSquare); }
+    static double mostHeight(const Tile& tile) { return kHeightSigmas * std::sqrt(tile.variance); }
+    static double mostSlope(const Tile& tile) { return kSlopeSigmas * std::sqrt(tile.slopeSquare); }
 
-    // Real fields F and G as F + i G: which 0 (h, hx), 1 (hz, hxx), 2 (hxz, hzz).
+    // Real fields F and G as F + i G: which 0: (h, hx), 1: (hz, hxz).
     static void setSpectrum(const Tile& tile, int which, double seconds, TileTransform& to) {
         const double dk = 2 * kPiD / tile.band.periodM;
         to.clear();
@@ -133,10 +141,7 @@ private:
                                          mode.half[0] * std::sin(a) + mode.half[1] * std::sin(b)};
             const double kx = dk * mode.m, kz = dk * mode.q;
             const auto packed = [&](std::complex<double> c, double x, double z) {
-                const std::complex<double> i{0, 1};
-                if (which == 0) return c * (1 - x);
-                if (which == 1) return i * c * (z - x * x);
-                return -c * std::complex<double>(x * z, z * z);
+                return c * (1 - x) * (which == 0 ? std::complex<double>(1, 0) : std::complex<double>(0, z));
             };
             to.set(mode.m, mode.q, Complex(packed(h, kx, kz)));
             to.set(-mode.m, -mode.q, Complex(packed(std::conj(h), -kx, -kz)));
@@ -144,15 +149,13 @@ private:
     }
 
     static Peak writeRows(const TileTransform* t, std::size_t begin, std::size_t end, WaveTile& tile) {
-        std::array<std::array<Complex, kSize>, 3> row;
+        std::array<std::array<Complex, kSize>, 2> row;
         Peak peak;
         for (std::size_t j = begin; j < end; ++j) {
-            for (std::size_t f = 0; f < 3; ++f) t[f].transformSecond(j, row[f].data());
-            float* h = &tile.height[4 * j * kSize];
-            float* c = &tile.curvature[4 * j * kSize];
-            for (std::size_t i = 0; i < kSize; ++i, h += 4, c += 4) {
-                h[0] = row[0][i].real(), h[1] = row[0][i].imag(), h[2] = row[1][i].real(), h[3] = 0;
-                c[0] = row[1][i].imag(), c[1] = row[2][i].real(), c[2] = row[2][i].imag(), c[3] = 0;
+            for (std::size_t f = 0; f < 2; ++f) t[f].transformSecond(j, row[f].data());
+            float* h = &tile.texels[4 * j * kSize];
+            for (std::size_t i = 0; i < kSize; ++i, h += 4) {
+                h[0] = row[0][i].real(), h[1] = row[0][i].imag(), h[2] = row[1][i].real(), h[3] = row[1][i].imag();
                 peak.height = std::max(peak.height, std::abs(h[0]));
                 peak.slope2 = std::max(peak.slope2, h[1] * h[1] + h[2] * h[2]);
             }
@@ -172,8 +175,7 @@ private:
         if (slope > mostSlope(tiles_[t])) scale = std::min(scale, mostSlope(tiles_[t]) / slope);
         if (scale == 1) return;
         const float s = float(scale * (1 - 1e-6));
-        for (float& v : tile.height) v *= s;
-        for (float& v : tile.curvature) v *= s;
+        for (float& v : tile.texels) v *= s;
     }
 
     double shortestM_;
@@ -215,7 +217,7 @@ std::vector<OceanBand> oceanBands(const OceanSpectrum& spectrum, double shortest
     double period = shortestM * kOceanSize / texels, high = 2 * kPiD / shortestM;
     for (int c = 0; c < count; ++c) {
         const double low = c + 1 < count ? high / ratio : 0;
-        bands.push_back({double(float(period)), low, high});
+        bands.push_back({double(float(period)), low, high, texels});
         period *= ratio, high = low;
     }
     return bands;

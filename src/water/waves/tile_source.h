@@ -19,7 +19,7 @@ public:
 
 // A tile of the right size with all heights 0.
 WaveTile emptyTile(float periodM, int size);
-// Bilinear between texels: what waves.io.glsl does.
+// The bicubic Hermite surface, as in waves.io.glsl.
 WaveSample sampleTile(const WaveTile& tile, double x, double z);
 
 }  // namespace shoal::water

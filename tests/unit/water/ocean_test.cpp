@@ -27,9 +27,9 @@ struct Moments {
 };
 Moments momentsOf(const WaveTile& tile) {
     Moments m;
-    const double count = double(tile.height.size()) / 4;
-    for (std::size_t t = 0; t < tile.height.size(); t += 4) {
-        const double h = double(tile.height[t]), x = double(tile.height[t + 1]), z = double(tile.height[t + 2]);
+    const double count = double(tile.texels.size()) / 4;
+    for (std::size_t t = 0; t < tile.texels.size(); t += 4) {
+        const double h = double(tile.texels[t]), x = double(tile.texels[t + 1]), z = double(tile.texels[t + 2]);
         m.variance += h * h / count, m.slopeSquare += (x * x + z * z) / count;
     }
     return m;
@@ -186,12 +186,12 @@ TEST(Ocean, RunsWithTheWindAtTheSpeedOfDeepWater) {
         WaveField field = made(p);
         const double e = 1e-2;
         double towards = 0, away = 0, rise2 = 0;
-        const std::size_t last = field.tiles().size() - 1, count = field.tiles()[last].height.size() / 4;
+        const std::size_t last = field.tiles().size() - 1, count = field.tiles()[last].texels.size() / 4;
         for (int t = 0; t < 20; ++t) {
             field.setTime(11.0 * t);
-            const std::vector<float> before = field.tiles()[last].height;
+            const std::vector<float> before = field.tiles()[last].texels;
             field.setTime(11.0 * t + e);
-            const std::vector<float>& after = field.tiles()[last].height;
+            const std::vector<float>& after = field.tiles()[last].texels;
             const double c = std::cos(double(windDeg) * kPiD / 180), s = std::sin(double(windDeg) * kPiD / 180);
             for (std::size_t i = 0; i < count; ++i) {
                 const double rise = (double(after[4 * i]) - double(before[4 * i])) / e;

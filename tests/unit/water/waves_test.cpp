@@ -72,66 +72,83 @@ TEST(Waves, ComponentsByPeriodAndByWavelengthAgree) {
     }
 }
 
-// Derivatives are those of the height: exact for what has a formula.
+// Derivatives are those of the height, between texels too.
 TEST(Waves, DerivativesAreOfTheHeight) {
-    WaveParams circular = ofKind("circular"), turbulent = ofKind("turbulent");
-    circular.noise = turbulent.noise = 0;
-    std::vector<WaveField> fields;
-    fields.push_back(made(circular));
-    fields.push_back(made(turbulent));
-    fields.push_back(made(ofKind("sum"), test::sixWaves()));
-    for (WaveField& field : fields) {
-        field.setTime(1.7);
+    for (test::NamedField& named : test::waveFields()) {
+        const WaveField& field = named.field;
+        named.field.setTime(1.7);
         for (std::uint32_t i = 0; i < 200; ++i) {
             // The first at the centre of the circular wave, where a cosine of the radius would have a cusp.
             const double x = i ? double(randomFloat(1, i)) * 4 - 2 : 0, z = i ? double(randomFloat(2, i)) * 4 - 2 : 0;
-            const double e = 1e-5;
+            const double e = 1e-6;
             const WaveSample w = field.at(x, z), px = field.at(x + e, z), mx = field.at(x - e, z),
                              pz = field.at(x, z + e), mz = field.at(x, z - e);
-            EXPECT_NEAR(w.hx, (px.h - mx.h) / (2 * e), 1e-8);
-            EXPECT_NEAR(w.hz, (pz.h - mz.h) / (2 * e), 1e-8);
-            EXPECT_NEAR(w.hxx, (px.hx - mx.hx) / (2 * e), 2e-6);
-            EXPECT_NEAR(w.hxz, (pz.hx - mz.hx) / (2 * e), 2e-6);
-            EXPECT_NEAR(w.hzz, (pz.hz - mz.hz) / (2 * e), 2e-6);
+            const double slope = field.bounds().slope, curve = slope * 2 * kPiD / field.bounds().wavelength;
+            EXPECT_NEAR(w.hx, (px.h - mx.h) / (2 * e), 1e-6 * slope) << named.name;
+            EXPECT_NEAR(w.hz, (pz.h - mz.h) / (2 * e), 1e-6 * slope) << named.name;
+            if (i == 0) continue;  // where four texels meet curvature jumps
+            EXPECT_NEAR(w.hxx, (px.hx - mx.hx) / (2 * e), 1e-5 * curve) << named.name;
+            EXPECT_NEAR(w.hxz, (pz.hx - mz.hx) / (2 * e), 1e-5 * curve) << named.name;
+            EXPECT_NEAR(w.hzz, (pz.hz - mz.hz) / (2 * e), 1e-5 * curve) << named.name;
         }
     }
 }
 
-// A tile's numbers at its texels: slopes against differences of heights, curvature against differences of slopes.
+// A tile's numbers at its texels against differences of its heights.
 TEST(Waves, TilesDerivativesAreOfTheirHeights) {
     for (test::NamedField& named : test::waveFields()) {
         named.field.setTime(2.2);
         for (const WaveTile& tile : named.field.tiles()) {
             const int n = tile.size;
             const double step = double(tile.periodM) / n;
-            const auto at = [&](const std::vector<float>& v, int i, int j, int c) {
-                return double(v[std::size_t(((j & (n - 1)) * n + (i & (n - 1))) * 4 + c)]);
+            const auto at = [&](int i, int j, int c) {
+                return double(tile.texels[std::size_t(((j & (n - 1)) * n + (i & (n - 1))) * 4 + c)]);
             };
-            const auto along = [&](const std::vector<float>& v, int i, int j, int c, int di, int dj) {
-                const auto far = [&](int s) { return at(v, i + s * di, j + s * dj, c); };
+            const auto along = [&](int i, int j, int c, int di, int dj) {
+                const auto far = [&](int s) { return at(i + s * di, j + s * dj, c); };
                 return (45 * (far(1) - far(-1)) - 9 * (far(2) - far(-2)) + far(3) - far(-3)) / (60 * step);
             };
-            double slope = 0, slopeOff = 0, curve = 0, curveOff = 0;
-            // Noise has kinks in its curvature where cells of 8 texels meet; inside it is a polynomial.
+            // Noise has kinks in its third derivatives where cells of 8 texels meet; inside it is a polynomial.
             const bool noise = std::string(named.name) == "circular" || std::string(named.name) == "turbulent";
             const auto skipped = [&](int i) { return noise && (i % 8 < 3 || i % 8 > 5); };
+            double slope = 0, slopeOff = 0, twist = 0, twistOff = 0;
             for (int j = 0; j < n; j += 3)
                 for (int i = 0; i < n; i += 3) {
                     if (skipped(i) || skipped(j)) continue;
                     const auto meet = [](double& worst, double value) { worst = std::max(worst, std::abs(value)); };
-                    meet(slope, at(tile.height, i, j, 1)), meet(slope, at(tile.height, i, j, 2));
-                    meet(curve, at(tile.curvature, i, j, 0)), meet(curve, at(tile.curvature, i, j, 2));
-                    meet(slopeOff, at(tile.height, i, j, 1) - along(tile.height, i, j, 0, 1, 0));
-                    meet(slopeOff, at(tile.height, i, j, 2) - along(tile.height, i, j, 0, 0, 1));
-                    meet(curveOff, at(tile.curvature, i, j, 0) - along(tile.height, i, j, 1, 1, 0));
-                    meet(curveOff, at(tile.curvature, i, j, 1) - along(tile.height, i, j, 1, 0, 1));
-                    meet(curveOff, at(tile.curvature, i, j, 2) - along(tile.height, i, j, 2, 0, 1));
+                    meet(slope, at(i, j, 1)), meet(slope, at(i, j, 2)), meet(twist, at(i, j, 3));
+                    meet(slopeOff, at(i, j, 1) - along(i, j, 0, 1, 0));
+                    meet(slopeOff, at(i, j, 2) - along(i, j, 0, 0, 1));
+                    meet(twistOff, at(i, j, 3) - along(i, j, 1, 0, 1));
+                    meet(twistOff, at(i, j, 3) - along(i, j, 2, 1, 0));
                 }
             EXPECT_GT(slope, 0) << named.name;
             EXPECT_LT(slopeOff, 0.02 * slope) << named.name << " " << tile.periodM << " m";
-            EXPECT_LT(curveOff, 0.05 * curve) << named.name << " " << tile.periodM << " m";
+            EXPECT_LT(twistOff, 0.05 * twist) << named.name << " " << tile.periodM << " m";
         }
     }
+}
+
+// The shortest waves of an ocean are 8 texels long: what the cubic between texels makes of them.
+TEST(Waves, TilesKeepShortWavesBetweenTexels) {
+    WaveParams p = ofKind("heightmap");
+    p.periodM = 1;
+    Image map(64, 64, 1);
+    for (int y = 0; y < 64; ++y)
+        for (int x = 0; x < 64; ++x) map.at(x, y)[0] = 0.01f * std::cos(2 * kPi * float(x) / 8);
+    const WaveField field = made(p, {}, {map});
+    const double k = 2 * kPiD * 8;
+    double height = 0, slope = 0, curve = 0;
+    for (int i = 0; i < 500; ++i) {
+        const double x = -0.5 + i / 500.0, angle = k * (x + 0.5);
+        const WaveSample w = field.at(x, 0.123);
+        height = std::max(height, std::abs(w.h - 0.01 * std::cos(angle)) / 0.01);
+        slope = std::max(slope, std::abs(w.hx + 0.01 * k * std::sin(angle)) / (0.01 * k));
+        curve = std::max(curve, std::abs(w.hxx + 0.01 * k * k * std::cos(angle)) / (0.01 * k * k));
+    }
+    EXPECT_LT(height, 0.003);
+    EXPECT_LT(slope, 0.012);
+    EXPECT_LT(curve, 0.08);
 }
 
 TEST(Waves, StayWithinTheirBounds) {
@@ -165,13 +182,13 @@ TEST(Waves, MoveSmoothlyAndAreTheSameForAnyThreads) {
         {
             const ThreadLimit one(1);
             named.field.setTime(6), named.field.setTime(5);
-            if (!named.field.tiles().empty()) alone = named.field.tiles()[0].curvature;
+            if (!named.field.tiles().empty()) alone = named.field.tiles()[0].texels;
         }
         EXPECT_EQ(named.field.at(1.1, 2.3).h, before.h) << named.name;
         EXPECT_EQ(named.field.at(1.1, 2.3).hxz, before.hxz) << named.name;
         if (!alone.empty()) {
             named.field.setTime(6), named.field.setTime(5);
-            EXPECT_EQ(named.field.tiles()[0].curvature, alone) << named.name;
+            EXPECT_EQ(named.field.tiles()[0].texels, alone) << named.name;
         }
         const double height = named.field.bounds().height;
         named.field.setTime(5 + 1e-3);
