@@ -42,6 +42,7 @@ std::vector<Benchmark> frameBenchmarks();
 std::vector<Benchmark> waterSpeedBenchmarks();
 std::vector<Benchmark> waterPaperBenchmarks();  // in waterSpeedBenchmarks
 std::vector<Benchmark> waterTruthBenchmarks();
+std::vector<Benchmark> waterShaftBenchmarks();
 
 // In the processes that frame.startup_ms starts: times the start, prints it and ends the process; elsewhere does
 // nothing. Comes before anything else opens a device.
