@@ -26,8 +26,8 @@ struct Photons::State {
     const gl::Program* deposit[kVariants] = {};
     const gl::Program *resolve = nullptr, *disc = nullptr, *mips = nullptr;
     const gl::Program *lookup = nullptr, *lookupDeep = nullptr, *lookupNoNormals = nullptr;
-    gl::Buffer deposits;                // of one slot at a time
-    gl::Texture sharp;                  // its two layers before the light's disc blurs them
+    gl::Buffer deposits;  // of one slot at a time
+    gl::Texture sharp;    // its two layers before the light's disc blurs them
     gl::Texture maps;
     int mostFine = 1;  // deposit texels a side of a texel of the maps
     int mipLevels = 1;
@@ -129,7 +129,9 @@ void makeMips(State& s, const gl::Texture& texture, int firstLayer, int side, in
     }
 }
 
-int levelsFor(double radius) { return std::clamp(1 + int(std::floor(std::log2(std::max(radius, 1.0)))), 1, kSharpLevels); }
+int levelsFor(double radius) {
+    return std::clamp(1 + int(std::floor(std::log2(std::max(radius, 1.0)))), 1, kSharpLevels);
+}
 
 void resolveSlot(State& s, const frame::Context& context, int index, double disc, int fine) {
     const gl::PassScope pass(context.timer, "caustic maps");
@@ -262,8 +264,8 @@ void Photons::resolve(const frame::Context& context, const Body& body, const Bod
     for (const int unit : {0, 1, SHOAL_UNIT_CAUSTIC_MAPS}) glBindSampler(GLuint(unit), 0);
     gl::bindImage(0, outputs.direct, GL_WRITE_ONLY);
     gl::bindImage(1, outputs.ambient ? outputs.ambient : outputs.direct, GL_WRITE_ONLY);
-    const bool lamps = std::any_of(views.slots().begin(), views.slots().end(),
-                                   [](const LightSlot& slot) { return slot.light >= 0; });
+    const bool lamps =
+        std::any_of(views.slots().begin(), views.slots().end(), [](const LightSlot& slot) { return slot.light >= 0; });
     const bool deep = !views.airDrawn() && !lamps;
     const gl::Program& program = *(!normals ? s.lookupNoNormals : deep ? s.lookupDeep : s.lookup);
     program.set(0, outputs.ambient ? 1 : 0);
