@@ -40,7 +40,7 @@ struct Benchmark {
 const std::vector<Benchmark>& benchmarks();
 std::vector<Benchmark> frameBenchmarks();
 std::vector<Benchmark> waterSpeedBenchmarks();
-std::vector<Benchmark> waterPaperBenchmarks();  // in waterSpeedBenchmarks
+std::vector<Benchmark> waterErrorBenchmarks(), waterPaperBenchmarks();  // in waterSpeedBenchmarks
 std::vector<Benchmark> waterTruthBenchmarks();
 std::vector<Benchmark> waterShaftBenchmarks();
 

@@ -75,64 +75,74 @@ Result<MethodPair> MethodPair::create(const Settings& settings) {
     return pair;
 }
 
-Result<void> MethodPair::load(const std::string& scene, int photons, int godrayPhotons, const Overrides& both,
-                              const Overrides& paperOnly) {
-    SHOAL_TRY_ASSIGN(const std::string folder, checksFolder());
+Overrides shoalOverrides(int photons, int godrayPhotons) {
+    return {"water.caustics.photons=" + std::to_string(photons),
+            "water.shafts.photons=" + std::to_string(godrayPhotons)};
+}
+
+Overrides paperOverrides(int photons, int godrayPhotons) {
     const auto side = [](int count) { return std::to_string(std::lround(std::sqrt(count / 4.0))); };
-    for (const Method method : {Method::shoal, Method::paper}) {
-        Overrides overrides = both;
-        if (method == Method::paper) {
-            overrides.push_back("water.caustics.method=paper");
-            overrides.push_back("water.paper.causticGrid=" + side(photons));
-            overrides.push_back("water.paper.godrayGrid=" + side(godrayPhotons));
-            overrides.insert(overrides.end(), paperOnly.begin(), paperOnly.end());
-        } else {
-            overrides.push_back("water.caustics.photons=" + std::to_string(photons));
-            overrides.push_back("water.shafts.photons=" + std::to_string(godrayPhotons));
-        }
-        std::vector<scene::Override> parsed;
-        for (const std::string& one : overrides) {
-            SHOAL_TRY_ASSIGN(scene::Override override, scene::parseOverride(one));
-            parsed.push_back(std::move(override));
-        }
-        SHOAL_TRY(pipeline(method).open(folder + "/" + scene + ".toml", parsed));
+    return {"water.caustics.method=paper", "water.paper.causticGrid=" + side(photons),
+            "water.paper.godrayGrid=" + side(godrayPhotons)};
+}
+
+Result<void> MethodPair::load(const std::string& scene, const Overrides& shoal, const Overrides& paper) {
+    SHOAL_TRY(loadOne(Method::shoal, scene, shoal));
+    return loadOne(Method::paper, scene, paper);
+}
+
+Result<void> MethodPair::loadOne(Method method, const std::string& scene, const Overrides& overrides) {
+    SHOAL_TRY_ASSIGN(const std::string folder, checksFolder());
+    std::vector<scene::Override> parsed;
+    for (const std::string& one : overrides) {
+        SHOAL_TRY_ASSIGN(scene::Override override, scene::parseOverride(one));
+        parsed.push_back(std::move(override));
     }
-    request_ = pipeline::requestFor(pipeline(Method::shoal).scene().render);
-    request_.antialiasing = "none";
+    SHOAL_TRY(pipeline(method).open(folder + "/" + scene + ".toml", parsed));
+    pipeline::FrameRequest& request = requests_[index(method)];
+    request = pipeline::requestFor(pipeline(method).scene().render);
+    request.antialiasing = "none";
     return {};
 }
 
-void MethodPair::setSize(int width, int height) { request_.width = width, request_.height = height; }
+void MethodPair::setSize(int width, int height) {
+    for (const Method method : {Method::shoal, Method::paper}) setSize(method, width, height);
+}
 
-pipeline::FrameRequest MethodPair::request(int index) {
-    pipeline::FrameRequest request = request_;
-    const pipeline::Pipeline& any = pipeline(Method::shoal);
+void MethodPair::setSize(Method method, int width, int height) {
+    pipeline::FrameRequest& request = requests_[index(method)];
+    request.width = width, request.height = height;
+}
+
+pipeline::FrameRequest MethodPair::request(Method method, int frame) {
+    pipeline::FrameRequest request = requests_[index(method)];
+    const pipeline::Pipeline& p = pipeline(method);
     light::Camera camera =
-        scene::cameraAt(any.scene(), any.content(), request.time, float(request.width) / float(request.height));
-    camera.worldFromView(0, 3) += 0.011f * float(index);
+        scene::cameraAt(p.scene(), p.content(), request.time, float(request.width) / float(request.height));
+    camera.worldFromView(0, 3) += 0.011f * float(frame);
     request.camera = camera;
-    request.time += float(index) / 30;
-    request.frameIndex = std::uint32_t(index);
+    request.time += float(frame) / 30;
+    request.frameIndex = std::uint32_t(frame);
     return request;
 }
 
-Result<MethodTimes> MethodPair::timed(Method method, int index) {
+Result<MethodTimes> MethodPair::timed(Method method, int frame) {
     pipeline::Pipeline& p = pipeline(method);
     p.setTiming(true);
-    const auto drawn = p.render(request(index));
+    const auto drawn = p.render(request(method, frame));
     p.setTiming(false);
     SHOAL_TRY(drawn);
     if (!device_->software()) {  // timer queries come in some frames later
         glFinish();
-        for (int i = 0; i < 6 && p.stats().passes.empty(); ++i) SHOAL_TRY(p.render(request(index)));
+        for (int i = 0; i < 6 && p.stats().passes.empty(); ++i) SHOAL_TRY(p.render(request(method, frame)));
     }
     return timesOf(p.stats().passes);
 }
 
-Result<double> MethodPair::wholeFrame(Method method, int index) {
+Result<double> MethodPair::wholeFrame(Method method, int frame) {
     Result<void> drawn;
     const double seconds = bench::timed([&] {
-        drawn = pipeline(method).render(request(index));
+        drawn = pipeline(method).render(request(method, frame));
         if (!drawn) return;
         const auto picture = pipeline(method).readDisplay();
         if (!picture) drawn = picture.error();
@@ -157,7 +167,7 @@ Result<MethodPair::Both> MethodPair::inTurns(int repetitions) {
 Result<Image> MethodPair::draw(Method method, const std::string& aov) {
     pipeline::Pipeline& p = pipeline(method);
     p.setAovs(std::vector<std::string>{aov});
-    const auto drawn = p.render(request_);
+    const auto drawn = p.render(requests_[index(method)]);
     p.setAovs({});
     SHOAL_TRY(drawn);
     p.setAovs(std::vector<std::string>{aov});

@@ -28,13 +28,18 @@ MethodTimes medianOf(const std::vector<MethodTimes>& times);
 // "caustic photons 3.1, caustic maps 0.4": of the passes that belong to a method.
 std::string passText(const MethodTimes& times);
 
+// What sets a method and its photons.
+Overrides shoalOverrides(int photons, int godrayPhotons);
+Overrides paperOverrides(int photons, int godrayPhotons);  // numbers are rounded to 4 n^2
+
 class MethodPair {
 public:
     static Result<MethodPair> create(const Settings& settings);
-    // Loads tests/scenes/<scene>.toml twice. `photons` and `godrayPhotons` for both (the paper's are 4 n^2).
-    Result<void> load(const std::string& scene, int photons, int godrayPhotons, const Overrides& both = {},
-                      const Overrides& paperOnly = {});
-    void setSize(int width, int height);
+    // Loads tests/scenes/<scene>.toml twice. Any two settings may stand beside each other, not the two methods alone.
+    Result<void> load(const std::string& scene, const Overrides& shoal, const Overrides& paper);
+    Result<void> loadOne(Method method, const std::string& scene, const Overrides& overrides);
+    void setSize(int width, int height);  // of both
+    void setSize(Method method, int width, int height);
     // Draws a frame and times its passes. The eye moves with the index, as in use: what follows the eye is drawn anew.
     Result<MethodTimes> timed(Method method, int index);
     // Wall clock of a whole frame with its picture read back, milliseconds.
@@ -47,13 +52,14 @@ public:
     // An AOV of the scene's own view, row 0 on top.
     Result<Image> draw(Method method, const std::string& aov);
     gl::Device& device() { return *device_; }
-    pipeline::Pipeline& pipeline(Method method) { return *pipelines_[method == Method::paper ? 1 : 0]; }
+    pipeline::Pipeline& pipeline(Method method) { return *pipelines_[index(method)]; }
 
 private:
-    pipeline::FrameRequest request(int index);
+    static std::size_t index(Method method) { return method == Method::paper ? 1 : 0; }
+    pipeline::FrameRequest request(Method method, int frame);
     std::unique_ptr<gl::Device> device_;
     std::unique_ptr<pipeline::Pipeline> pipelines_[2];
-    pipeline::FrameRequest request_;
+    pipeline::FrameRequest requests_[2];
 };
 
 }  // namespace shoal::bench

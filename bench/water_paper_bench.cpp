@@ -15,17 +15,22 @@ std::string override(const char* key, double value) {
     return text;
 }
 
+int photonsOf(int side) { return 4 * side * side; }
+
 Overrides overridesOf(const water::PaperParams& p) {
-    return {override("causticScale", p.causticScale), override("godrayScale", p.godrayScale),
-            override("smallestPointPx", p.smallestPointPx), override("largestPointPx", p.largestPointPx),
-            override("lineWidthPx", p.lineWidthPx)};
+    Overrides overrides = paperOverrides(photonsOf(p.causticGrid), photonsOf(p.godrayGrid));
+    for (const std::string& one :
+         {override("causticScale", p.causticScale), override("godrayScale", p.godrayScale),
+          override("smallestPointPx", p.smallestPointPx), override("largestPointPx", p.largestPointPx),
+          override("lineWidthPx", p.lineWidthPx)})
+        overrides.push_back(one);
+    return overrides;
 }
 
 Result<std::vector<Row>> configuration(const Settings& settings, const water::PaperConfig& config, const char* id) {
     SHOAL_TRY_ASSIGN(MethodPair pair, MethodPair::create(settings));
-    const auto photons = [](int side) { return 4 * side * side; };
-    SHOAL_TRY(pair.load("water_speed", photons(config.params.causticGrid), photons(config.params.godrayGrid), {},
-                        overridesOf(config.params)));
+    const int photons = photonsOf(config.params.causticGrid), godrayPhotons = photonsOf(config.params.godrayGrid);
+    SHOAL_TRY(pair.load("water_speed", shoalOverrides(photons, godrayPhotons), overridesOf(config.params)));
     pair.setSize(config.width, config.height);
     std::vector<double> paper, ours;
     constexpr int kWarmUp = 2;
@@ -45,8 +50,8 @@ Result<std::vector<Row>> configuration(const Settings& settings, const water::Pa
     std::snprintf(text, sizeof text,
                   "; the paper's method, whole frame with read back, %dx%d, %d + %d photons, %.2f fps (the paper, on a "
                   "GTX 260: %s; %s); Shoal's method in the same frame %.1f ms; water_speed.toml",
-                  config.width, config.height, photons(config.params.causticGrid), photons(config.params.godrayGrid),
-                  1000 / spread.median, config.framesPerSecond, config.note, own.median);
+                  config.width, config.height, photons, godrayPhotons, 1000 / spread.median, config.framesPerSecond,
+                  config.note, own.median);
     row.method = spread.describe("ms") + text;
     return std::vector<Row>{row};
 }

@@ -112,7 +112,8 @@ TEST_P(ToolExamples, WorkAsPrinted) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, ToolExamples, testing::Values("", "render", "info", "compare", "reference", "demo", "bench"),
+INSTANTIATE_TEST_SUITE_P(All, ToolExamples,
+                         testing::Values("", "render", "info", "compare", "reference", "demo", "bench"),
                          [](const testing::TestParamInfo<std::string>& info) {
                              return info.param.empty() ? "shoal" : info.param;
                          });

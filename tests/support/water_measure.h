@@ -15,47 +15,24 @@
 #include <shoal/water/photons.h>
 #include <shoal/water/reference.h>
 
-namespace shoal::measure {
+#include "support/known_waves.h"
 
-// S1 of docs/water: one sinusoid. P6: six waves of period 4 m.
-inline water::WaveField flatWaves() {
-    water::WaveParams params;
-    params.kind = "flat";
-    return *water::WaveField::create(params);
-}
-inline water::WaveField sinusoidWaves(float amplitude = 0.05f, float wavelength = 2) {
-    water::WaveParams params;
-    params.kind = "sum";
-    const water::WaveComponentParams wave{.amplitude = amplitude, .wavelength = wavelength};
-    return *water::WaveField::create(params, std::span(&wave, 1));
-}
-inline water::WaveField patchWaves() {
-    water::WaveParams params;
-    params.kind = "sum";
-    params.periodM = 4;
-    const float rows[6][4] = {{.020f, 2, 1, 0},    {.015f, -3, 2, 1.3f}, {.010f, 5, -1, 2.1f},
-                              {.006f, 3, 7, 4.0f}, {.004f, -9, 4, .7f},  {.0025f, 12, 9, 5.2f}};
-    std::vector<water::WaveComponentParams> waves;
-    for (const auto& r : rows) waves.push_back({.amplitude = r[0], .phase = r[3], .m = r[1], .q = r[2]});
-    return *water::WaveField::create(params, waves);
-}
+namespace shoal::test {
 
 struct FloorSetup {
     const water::WaveField* waves = nullptr;
-    float depth = 2;                          // of the floor below the level, metres
-    float zenithDeg = 0;                      // of the sun; its light travels towards +x
-    float discHalfAngle = 0;                  // radians
-    float attenuation = 0;                    // c, 1/m
+    float depth = 2;          // of the floor below the level, metres
+    float zenithDeg = 0;      // of the sun; its light travels towards +x
+    float discHalfAngle = 0;  // radians
+    float attenuation = 0;    // c, 1/m
     int photons = 160000;
-    Vec2 center{2, 2};                        // of what the eye sees, world x, z
+    Vec2 center{2, 2};  // of what the eye sees, world x, z
     float sideM = 4;
     std::vector<light::PunctualLight> lamps;  // in place of the sun
     float ceiling = 0;                        // height of a level ceiling above the level, 0: none
 };
 
-inline Vec3 sunAt(float zenithDeg) {
-    return {-std::sin(radians(zenithDeg)), std::cos(radians(zenithDeg)), 0};
-}
+inline Vec3 sunAt(float zenithDeg) { return {-std::sin(radians(zenithDeg)), std::cos(radians(zenithDeg)), 0}; }
 
 // One picture's worth of passes on a level floor that an orthographic eye looks straight down on.
 class FloorRig {
@@ -123,11 +100,10 @@ public:
         params.photons = setup_.photons;
         photons_.render(context_, params, body_, lights_, views_);
     }
-    void lookUp() {
-        photons_.resolve(context_, body_, lights_, views_, {viewDepth_, normal_}, {direct_, ambient_});
-    }
+    void lookUp() { photons_.resolve(context_, body_, lights_, views_, {viewDepth_, normal_}, {direct_, ambient_}); }
 
-    // The map of a slot, R32F as it is: irradiance on a level plane over E_perp; row j at z = origin.y + (j + .5) texel.
+    // The map of a slot, R32F as it is: irradiance on a level plane over E_perp; row j at z = origin.y + (j + .5)
+    // texel.
     std::vector<float> map(int slot = 0, int layer = 0) const {
         const gl::TextureView maps = photons_.maps();
         std::vector<float> all(std::size_t(maps.width) * std::size_t(maps.height));
@@ -157,9 +133,12 @@ public:
         const double sx = x + double(slot.source.x) / w * depth, sz = z + double(slot.source.z) / w * depth;
         const double u = (sx - double(slot.origin.x)) / double(slot.texel) - .5;
         const double v = (sz - double(slot.origin.y)) / double(slot.texel) - .5;
-        const int i = std::clamp(int(std::floor(u)), 0, resolution_ - 2), j = std::clamp(int(std::floor(v)), 0, resolution_ - 2);
+        const int i = std::clamp(int(std::floor(u)), 0, resolution_ - 2),
+                  j = std::clamp(int(std::floor(v)), 0, resolution_ - 2);
         const double fu = u - i, fv = v - j;
-        const auto at = [&](int a, int b) { return double(map[std::size_t(j + b) * std::size_t(resolution_) + std::size_t(i + a)]); };
+        const auto at = [&](int a, int b) {
+            return double(map[std::size_t(j + b) * std::size_t(resolution_) + std::size_t(i + a)]);
+        };
         return (at(0, 0) * (1 - fu) + at(1, 0) * fu) * (1 - fv) + (at(0, 1) * (1 - fu) + at(1, 1) * fu) * fv;
     }
 
@@ -201,6 +180,150 @@ private:
     frame::Context context_;
 };
 
+// Mean of a map along z within `half` metres of the middle: waves along x alone.
+inline std::vector<double> profileAlongX(const FloorRig& rig, const std::vector<float>& map) {
+    const int n = rig.resolution();
+    std::vector<double> profile(std::size_t(n), 0);
+    for (int j = n / 4; j < 3 * n / 4; ++j)
+        for (int i = 0; i < n; ++i)
+            profile[std::size_t(i)] += double(map[std::size_t(j) * std::size_t(n) + std::size_t(i)]);
+    for (double& p : profile) p /= n / 2;
+    return profile;
+}
+
+// Largest relative error of level water's irradiance over the middle of the map.
+inline double flatError(FloorRig& rig, double zenithDeg, double attenuation) {
+    const water::WaveField waves = levelWater();
+    FloorSetup setup;
+    setup.waves = &waves, setup.depth = 4;
+    setup.zenithDeg = float(zenithDeg), setup.attenuation = float(attenuation);
+    rig.prepare(setup);
+    rig.trace();
+    const double exact =
+        water::analytic::flatIrradiance(water::kWaterIndex, attenuation, zenithDeg * kPiD / 180, setup.depth);
+    double worst = 0;
+    const std::vector<float> map = rig.map();
+    for (int j = 8; j < rig.resolution() - 8; ++j)
+        for (int i = 8; i < rig.resolution() - 8; ++i) {
+            const double x = double(rig.slot().texel) * (i - rig.resolution() / 2) + 2,
+                         z = double(rig.slot().texel) * (j - rig.resolution() / 2) + 2;
+            worst = std::max(worst, std::abs(rig.mapAt(map, x, z) / exact - 1));
+        }
+    return worst;
+}
+
+// Largest relative error of S1 at landing points `at`, zenith or oblique light.
+inline double sinusoidError(FloorRig& rig, double depth, int photons, std::span<const double> at, double zenithDeg = 0,
+                            double attenuation = 0) {
+    const water::WaveField waves = sinusoidS1();
+    FloorSetup setup;
+    setup.waves = &waves, setup.depth = float(depth), setup.photons = photons, setup.center = {0, 0};
+    setup.zenithDeg = float(zenithDeg), setup.attenuation = float(attenuation);
+    rig.prepare(setup);
+    rig.trace();
+    const std::vector<float> map = rig.map();
+    const water::analytic::Sinusoid exact{.attenuation = attenuation, .zenithAngle = zenithDeg * kPiD / 180};
+    double worst = 0;
+    for (const double x : at) {
+        const double value = rig.mapAt(map, x, 0.3);
+        worst = std::max(worst, std::abs(value / water::analytic::sinusoidIrradiance(exact, depth, x) - 1));
+    }
+    return worst;
+}
+
+// Depth below the level where the irradiance under a crest of S1 (mean over two texels) is largest, over the exact one.
+inline double focusDepthRatio(FloorRig& rig) {
+    const water::WaveField waves = sinusoidS1();
+    double best = 0, bestDepth = 0, exactBest = 0, exactDepth = 0;
+    for (double depth = 7.8; depth < 9.4; depth += 0.04) {
+        FloorSetup setup;
+        setup.waves = &waves, setup.depth = float(depth), setup.center = {0, 0}, setup.photons = 40000;
+        rig.prepare(setup);
+        rig.trace();
+        const std::vector<double> profile = profileAlongX(rig, rig.map());
+        const std::size_t middle = profile.size() / 2;
+        const double value = profile[middle - 1] + profile[middle];
+        if (value > best) best = value, bestDepth = depth;
+        const double texel = double(rig.slot().texel);
+        const double exact = water::analytic::sinusoidBins({}, depth, -texel, texel, 1)[0];
+        if (exact > exactBest) exactBest = exact, exactDepth = depth;
+    }
+    return bestDepth / exactDepth;
+}
+
+// Where a profile outside of a fold falls below half of its peak there, in bins from `from` on.
+inline double foldEdge(std::span<const double> profile, int from, int to) {
+    int peak = from;
+    for (int i = from; i < to; ++i)
+        if (profile[std::size_t(i)] > profile[std::size_t(peak)]) peak = i;
+    const double half = 0.5 * profile[std::size_t(peak)];
+    for (int i = peak; i < to; ++i) {
+        const double a = profile[std::size_t(i)], b = profile[std::size_t(i + 1)];
+        if (b < half) return i + (a - half) / (a - b);
+    }
+    return to;
+}
+
+// How far the fold of S1 at D = 12 (X = .0838) lies from the exact one, texels.
+inline double foldError(FloorRig& rig) {
+    const water::WaveField waves = sinusoidS1();
+    FloorSetup setup;
+    setup.waves = &waves, setup.depth = 12, setup.center = {0, 0};
+    rig.prepare(setup);
+    rig.trace();
+    const int n = rig.resolution();
+    const std::vector<double> profile = profileAlongX(rig, rig.map());
+    const std::vector<double> exact = water::analytic::sinusoidBins({}, 12, -2, 2, n);
+    return std::abs(foldEdge(profile, n / 2, n / 2 + 64) - foldEdge(exact, n / 2, n / 2 + 64));
+}
+
+// P6 at a depth under zenith light, the mean over each texel (1/128 m) of a window of 1 m x 1 m at the origin: rays,
+// and the same after the sun's disc. Rays are binned eight times as fine, so that the disc is not convolved with
+// texels.
+struct PatchReference {
+    static constexpr int kSide = 128, kFiner = 8, kRimTexels = 2;
+    std::vector<float> sharp, blurred;
+};
+inline PatchReference patchReference(double depth, double discHalfAngle, int raysPerSide) {
+    const water::WaveField waves = patchP6();
+    constexpr int kFine = (PatchReference::kSide + 2 * PatchReference::kRimTexels) * PatchReference::kFiner;
+    constexpr float kRim = float(PatchReference::kRimTexels) / 128;
+    const water::FloorBins bins{.min = {-kRim, -kRim}, .max = {1 + kRim, 1 + kRim}, .countX = kFine, .countZ = kFine};
+    const Image fine =
+        water::traceFloor(waves, water::kWaterIndex, 0, {0, 1, 0}, 0, depth, bins, raysPerSide, 1).irradiance;
+    // Radius in fine bins of the disc's light on the floor, and the bins within it.
+    const double radius = depth * std::tan(discHalfAngle) / water::kWaterIndex * 128 * PatchReference::kFiner;
+    std::vector<IVec2> disc;
+    for (int y = -int(radius); y <= int(radius); ++y)
+        for (int x = -int(radius); x <= int(radius); ++x)
+            if (std::hypot(x, y) <= radius) disc.push_back({x, y});
+    PatchReference reference;
+    for (int j = 0; j < PatchReference::kSide; ++j)
+        for (int i = 0; i < PatchReference::kSide; ++i) {
+            double sharp = 0, blurred = 0;
+            for (int b = 0; b < PatchReference::kFiner; ++b)
+                for (int a = 0; a < PatchReference::kFiner; ++a) {
+                    const int x = (i + PatchReference::kRimTexels) * PatchReference::kFiner + a;
+                    const int y = (j + PatchReference::kRimTexels) * PatchReference::kFiner + b;
+                    sharp += double(*fine.at(x, y));
+                    for (const IVec2 d : disc) blurred += double(*fine.at(x + d.x, y + d.y));
+                }
+            constexpr double kCount = double(PatchReference::kFiner) * PatchReference::kFiner;
+            reference.sharp.push_back(float(sharp / kCount));
+            reference.blurred.push_back(float(blurred / kCount / double(disc.size())));
+        }
+    return reference;
+}
+// The same window of a map whose square begins at the origin.
+inline std::vector<float> patchWindow(const FloorRig& rig) {
+    const std::vector<float> map = rig.map();
+    std::vector<float> window;
+    for (int j = 0; j < PatchReference::kSide; ++j)
+        for (int i = 0; i < PatchReference::kSide; ++i)
+            window.push_back(map[std::size_t(j) * std::size_t(rig.resolution()) + std::size_t(i)]);
+    return window;
+}
+
 // Root of the mean square difference, and mean difference, over the mean of `b`.
 struct MapError {
     double rmse = 0, mae = 0, mean = 0, referenceMean = 0;
@@ -220,4 +343,4 @@ MapError compareMaps(const A& a, const B& b) {
     return e;
 }
 
-}  // namespace shoal::measure
+}  // namespace shoal::test

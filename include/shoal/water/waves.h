@@ -88,8 +88,9 @@ void visit(P& p, V&& v) {
 
 // What the GPU is given: plane waves, one circular wave, and periodic tiles. h is their sum. The same numbers serve
 // WaveField::at, so that CPU and GPU agree.
+// amplitude cos(2 pi (turnsX x + turnsZ z) + phase); turns are waves a metre: k / 2 pi.
 struct PlaneWave {
-    float amplitude, kx, kz, phase;  // phase at the time set
+    float amplitude, turnsX, turnsZ, phase;  // phase at the time set, radians
 };
 struct CircularWave {
     float amplitude = 0, k = 0, phase = 0, centerX = 0, centerZ = 0;  // a cos(k r + phase); smooth at r = 0

@@ -5,7 +5,9 @@
 #include <epoxy/gl.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 
 #include <shoal/gl/program.h>
 #include <shoal/water/gpu_waves.h>
@@ -24,10 +26,11 @@ struct Photons::State {
     gl::Device* device = nullptr;
     PhotonSetup setup;
     const gl::Program* deposit[kVariants] = {};
-    const gl::Program *resolve = nullptr, *disc = nullptr, *mips = nullptr;
+    const gl::Program *resolve = nullptr, *disc = nullptr, *mips = nullptr, *layers = nullptr;
     const gl::Program *lookup = nullptr, *lookupDeep = nullptr, *lookupNoNormals = nullptr;
-    gl::Buffer deposits;                // of one slot at a time
-    gl::Texture sharp;                  // its two layers before the light's disc blurs them
+    gl::Buffer deposits;  // of one slot at a time
+    gl::Buffer commands;  // work groups of the passes after the deposit, for one layer or two
+    gl::Texture sharp;    // its two layers before the light's disc blurs them
     gl::Texture maps;
     int mostFine = 1;  // deposit texels a side of a texel of the maps
     int mipLevels = 1;
@@ -43,10 +46,11 @@ using State = Photons::State;
 
 constexpr int kMostMipLevels = 4;  // squares begin at multiples of 8 texels
 constexpr int kSharpLevels = 6;
+constexpr std::size_t kMostPasses = 2 + kSharpLevels + kMostMipLevels;  // of one slot after the deposit
 constexpr int kLargestFineMap = 1024;  // texels a side of maps that may be deposited twice as fine
 // Radius of the light's disc at the slot's bottom, texels: smaller ones are not seen, and up to the second one the map
 // that they blur must be twice as fine (convolving 512^2 bins by .9 texels leaves 12 % error, 1024^2 bins 2 %).
-constexpr double kSeenDisc = 0.3, kFineDisc = 0.5, kWideDisc = 2;
+constexpr double kSeenDisc = 0.5, kWideDisc = 2;
 constexpr double kReflectedShare = 0.25;
 
 Result<void> makePrograms(gl::Device& device, State& s) {
@@ -62,6 +66,7 @@ Result<void> makePrograms(gl::Device& device, State& s) {
     }
     SHOAL_TRY_ASSIGN(s.resolve, device.programs().get({{"water/caustic_resolve.comp"}, {}, "caustic resolve"}));
     SHOAL_TRY_ASSIGN(s.disc, device.programs().get({{"water/caustic_disc.comp"}, {}, "caustic disc"}));
+    SHOAL_TRY_ASSIGN(s.layers, device.programs().get({{"water/caustic_layers.comp"}, {}, "caustic layers"}));
     SHOAL_TRY_ASSIGN(s.mips, device.programs().get({{"water/caustic_mips.comp"}, {}, "caustic mips"}));
     const auto lookup = [&](std::vector<std::pair<std::string, std::string>> defines) {
         return device.programs().get({{"water/caustic_lookup.comp"}, std::move(defines), "caustic lookup"});
@@ -118,38 +123,87 @@ void depositSlot(State& s, const frame::Context& context, int index, const Light
     s.resolve->set(1, float(1 / units));
 }
 
-void makeMips(State& s, const gl::Texture& texture, int firstLayer, int side, int levels) {
-    for (int level = 1; level < levels; ++level) {
-        glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
-        gl::bindImage(0, texture, GL_READ_ONLY, level - 1);
-        gl::bindImage(1, texture, GL_WRITE_ONLY, level);
-        s.mips->set(0, firstLayer);
-        s.mips->set(1, side >> level);
-        s.mips->dispatch(side >> level, side >> level, 2);
+// The passes after the deposit, in order: each covers `side` texels a side of one layer or two.
+class LayerPasses {
+public:
+    LayerPasses(State& s, int deposits) : state_(s), flag_(2 * deposits * deposits) {}
+
+    void add(const gl::Program& program, int side, std::function<void()> bind) {
+        const auto groups = [&](int axis) {
+            return std::uint32_t((side + program.localSize(axis) - 1) / program.localSize(axis));
+        };
+        passes_[count_] = {&program, std::move(bind)};
+        words_[3 * count_] = groups(0), words_[3 * count_ + 1] = groups(1), words_[3 * count_ + 2] = 2;
+        ++count_;
     }
+    void run() {
+        state_.commands.writeAll(std::span<const std::uint32_t>(words_));
+        state_.deposits.bindStorage(SHOAL_STORAGE_WATER);
+        state_.commands.bindStorage(SHOAL_STORAGE_WATER + 1);
+        glProgramUniform2i(state_.layers->name(), 0, int(flag_), int(count_));
+        state_.layers->dispatch(1);
+        glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, state_.commands.name());
+        for (std::size_t i = 0; i < count_; ++i) {
+            glMemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
+                            GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
+            passes_[i].bind();
+            passes_[i].program->use();
+            glDispatchComputeIndirect(GLintptr(3 * sizeof(std::uint32_t) * i));
+        }
+        glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
+    }
+
+private:
+    struct Pass {
+        const gl::Program* program = nullptr;
+        std::function<void()> bind;
+    };
+    State& state_;
+    std::size_t flag_, count_ = 0;
+    std::array<Pass, kMostPasses> passes_;
+    std::array<std::uint32_t, 3 * kMostPasses> words_{};
+};
+
+void addMips(State& s, LayerPasses& passes, const gl::Texture& texture, int firstLayer, int side, int levels) {
+    for (int level = 1; level < levels; ++level)
+        passes.add(*s.mips, side >> level, [&s, &texture, firstLayer, side, level] {
+            gl::bindImage(0, texture, GL_READ_ONLY, level - 1);
+            gl::bindImage(1, texture, GL_WRITE_ONLY, level);
+            s.mips->set(0, firstLayer);
+            s.mips->set(1, side >> level);
+        });
 }
 
-int levelsFor(double radius) { return std::clamp(1 + int(std::floor(std::log2(std::max(radius, 1.0)))), 1, kSharpLevels); }
+int levelsFor(double radius) {
+    return std::clamp(1 + int(std::floor(std::log2(std::max(radius, 1.0)))), 1, kSharpLevels);
+}
 
 void resolveSlot(State& s, const frame::Context& context, int index, double disc, int fine) {
     const gl::PassScope pass(context.timer, "caustic maps");
     const int resolution = s.setup.resolution, side = resolution * fine;
     const bool blurs = disc >= kSeenDisc;
-    const gl::Texture& target = blurs ? s.sharp : s.maps;
-    gl::bindImage(0, target, GL_WRITE_ONLY);
-    glProgramUniform2i(s.resolve->name(), 0, side, blurs ? 0 : 2 * index);
-    s.resolve->dispatch(side, side, 2);
+    // The second layer is dark unless a photon met it.
+    const float dark = 0;
+    for (int level = 0; level < s.mipLevels; ++level)
+        glClearTexSubImage(s.maps.name(), level, 0, 0, 2 * index + 1, resolution >> level, resolution >> level, 1,
+                           GL_RED, GL_FLOAT, &dark);
+    LayerPasses passes(s, side);
+    passes.add(*s.resolve, side, [&] {
+        gl::bindImage(0, blurs ? s.sharp : s.maps, GL_WRITE_ONLY);
+        glProgramUniform2i(s.resolve->name(), 0, side, blurs ? 0 : 2 * index);
+    });
     if (blurs) {
         const int levels = levelsFor(disc * fine);
-        makeMips(s, s.sharp, 0, side, levels);
-        glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
-        gl::bindTexture(0, s.sharp);
-        glBindSampler(0, 0);
-        gl::bindImage(0, s.maps, GL_WRITE_ONLY);
-        glProgramUniform4i(s.disc->name(), 0, resolution, fine, index, levels);
-        s.disc->dispatch(resolution, resolution, 2);
+        addMips(s, passes, s.sharp, 0, side, levels);
+        passes.add(*s.disc, resolution, [&s, resolution, fine, index, levels] {
+            gl::bindTexture(0, s.sharp);
+            glBindSampler(0, 0);
+            gl::bindImage(0, s.maps, GL_WRITE_ONLY);
+            glProgramUniform4i(s.disc->name(), 0, resolution, fine, index, levels);
+        });
     }
-    makeMips(s, s.maps, 2 * index, resolution, s.mipLevels);
+    addMips(s, passes, s.maps, 2 * index, resolution, s.mipLevels);
+    passes.run();
 }
 
 Vec4 with(Vec3 v) { return {v.x, v.y, v.z, 0}; }
@@ -213,7 +267,8 @@ Result<Photons> Photons::create(gl::Device& device, const PhotonSetup& setup) {
     desc.label = "caustics before blur";
     s.sharp = gl::Texture::create(device, desc);
     s.deposits = gl::Buffer::create(device, (2 * side * side + 1) * sizeof(std::uint32_t), "photon deposits");
-    if (!s.maps || !s.sharp || !s.deposits) return internalError("no memory for caustic maps");
+    s.commands = gl::Buffer::create(device, 3 * kMostPasses * sizeof(std::uint32_t), "caustic work groups");
+    if (!s.maps || !s.sharp || !s.deposits || !s.commands) return internalError("no memory for caustic maps");
     s.waterBlock = gl::BlockBuffer<WaterBlock>::create(device, "water");
     s.causticBlock = gl::BlockBuffer<CausticBlock>::create(device, "caustics");
     return Photons(std::move(state));
@@ -235,7 +290,7 @@ void Photons::render(const frame::Context& context, const PhotonParams& params, 
         const LightSlot& slot = slots[std::size_t(i)];
         s.sunHasSlot = s.sunHasSlot || (slot.light < 0 && !slot.reflected);
         const double disc = double(slot.discRadius) / double(slot.texel);
-        const int fine = disc >= kFineDisc && disc < kWideDisc ? s.mostFine : 1;
+        const int fine = disc >= kSeenDisc && disc < kWideDisc ? s.mostFine : 1;
         depositSlot(s, context, i, slot, photonsOf(slot, slots, params.photons), variantOf(slot, body, lights, air),
                     slope, fine);
         resolveSlot(s, context, i, disc, fine);
@@ -262,8 +317,8 @@ void Photons::resolve(const frame::Context& context, const Body& body, const Bod
     for (const int unit : {0, 1, SHOAL_UNIT_CAUSTIC_MAPS}) glBindSampler(GLuint(unit), 0);
     gl::bindImage(0, outputs.direct, GL_WRITE_ONLY);
     gl::bindImage(1, outputs.ambient ? outputs.ambient : outputs.direct, GL_WRITE_ONLY);
-    const bool lamps = std::any_of(views.slots().begin(), views.slots().end(),
-                                   [](const LightSlot& slot) { return slot.light >= 0; });
+    const bool lamps =
+        std::any_of(views.slots().begin(), views.slots().end(), [](const LightSlot& slot) { return slot.light >= 0; });
     const bool deep = !views.airDrawn() && !lamps;
     const gl::Program& program = *(!normals ? s.lookupNoNormals : deep ? s.lookupDeep : s.lookup);
     program.set(0, outputs.ambient ? 1 : 0);

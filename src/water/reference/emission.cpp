@@ -7,7 +7,7 @@ namespace shoal::water {
 
 namespace {
 
-constexpr int kCellsPerSide = 256;
+constexpr double kMostCellsPerSide = 256, kRaysPerCell = 64;
 
 struct Rectangle {
     double minX = 1e30, minZ = 1e30, maxX = -1e30, maxZ = -1e30;
@@ -140,7 +140,8 @@ std::vector<EmissionCell> emissionCells(const Body& body, const LightSource& sou
     for (const Rectangle& entry : entries)
         if (!entry.empty()) all.add(entry);
     if (all.empty()) return {};
-    const double size = std::max(all.maxX - all.minX, all.maxZ - all.minZ) / kCellsPerSide;
+    const double cellsPerSide = std::clamp(std::floor(std::sqrt(double(rays) / kRaysPerCell)), 8.0, kMostCellsPerSide);
+    const double size = std::max(all.maxX - all.minX, all.maxZ - all.minZ) / cellsPerSide;
     const auto cellOf = [&](double offset, int count) {
         return std::clamp(int(std::floor(offset / size)), 0, count - 1);
     };

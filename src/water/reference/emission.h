@@ -22,9 +22,9 @@ struct EmissionCell {
     double rayArea() const { return size * size / (double(raysPerSide) * raysPerSide); }
 };
 
-// At most 256 x 256 cells. A cell is taken where light of the source can enter that, through waves no higher than their
-// bound and no steeper than greatestSlope, reaches one of the boxes; nine tenths of the rays are shared by how many
-// boxes there are to a cell, one tenth evenly.
+// At most 256 x 256 cells, and no more than a 64th of the rays. A cell is taken where light of the source can enter
+// that, through waves no higher than their bound and no steeper than greatestSlope, reaches one of the boxes; nine
+// tenths of the rays are shared by how many boxes there are to a cell, one tenth evenly.
 std::vector<EmissionCell> emissionCells(const Body& body, const LightSource& source, std::span<const SeenBox> seen,
                                         std::int64_t rays);
 

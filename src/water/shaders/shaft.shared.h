@@ -2,6 +2,7 @@
 #ifndef SHOAL_WATER_SHAFT_SHARED_H
 #define SHOAL_WATER_SHAFT_SHARED_H
 
+#define SHOAL_SUN_SHAFT_SLOTS 3  // slots of the sun that shafts are traced for: the finest
 #define SHOAL_MAX_SHAFT_SLOTS 8
 
 #ifdef __cplusplus
@@ -15,18 +16,18 @@ using vec4 = Vec4;
 #endif
 
 SHOAL_SHAFT_BLOCK_BEGIN {
-    vec4 grid;    // x: texels a side of a slice, y: slices of a slot, z: photons a texel's side, w: slots of the sun,
-                  // finest first
-    vec4 depths;  // slice k lies x (2^(y k) - 1) m below the level; z: 1 / y, w: depth of the last
-    vec4 units;   // x: fixed-point units of the light that level water puts on a texel, y: 1 / x, z: slots of lamps,
-                  // after the sun's
+    vec4 grid;    // x: texels a side of a slice, without the border; y: slices of a slot; z: photons a texel's side
+    vec4 depths;  // slice k lies x (p(y k) - 1) m below the level, p(i): the float with the bits of 1, plus i (2 to the
+                  // power of i / 2^23, straight lines between whole powers); z: 1 / y, w: depth of the last
+    vec4 units;   // x: fixed-point units of the light that level water puts on a texel, y: 1 / x
     vec4 eye;     // xyz: where the eye seems to be from under water
+    // The sun's, finest first, then the lamps'.
     vec4 slots[SHOAL_MAX_SHAFT_SLOTS];  // xy: light space of the corner of texel (0, 0), z: 1 / texel, w: index among
                                         // LightViews::slots()
-    vec4 rims[SHOAL_MAX_SHAFT_SLOTS];   // least, greatest texel that all its light reaches: x + y d, z - y d at
-                                        // depth d
-    vec4 march;   // x: steps, y: full pixels a small pixel's side, z, w: shift of the pattern
-    vec4 small;   // x: full pixels from the middle of a small pixel to that of the one marched for it
+    vec4 rims[SHOAL_MAX_SHAFT_SLOTS];  // x: texels from the middle that all its light reaches, less y a metre of depth;
+                                       // x is negative where there is no slot
+    vec4 march;                        // x: steps, y: full pixels a small pixel's side, z, w: shift of the pattern
+    vec4 small;  // x: full pixels from the middle of a small pixel to that of the one marched for it
 }
 #ifndef __cplusplus
 shaftBlock

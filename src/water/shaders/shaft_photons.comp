@@ -8,25 +8,26 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
+layout(location = 0) uniform int firstSlot;
+
 const int kMostParts = 3;   // of a photon's footprint along an axis
 // Times what level water lets through: no photon counts for more. All photons of a slot in one texel fill 32 bits.
 const float kMostLight = 16.0;
 
 // Spreads `amount` over the four texels around t. The last share is what is left, so that none is lost; `rounding` in
 // [0, 1) decides which way the fraction of a unit goes, evenly over all photons.
-void deposit(int start, vec2 t, float amount, float rounding) {
-    int side = int(shaftBlock.grid.x) + 2;
+void deposit(int layer, vec2 t, float amount, float rounding) {
     vec2 at = t + 0.5;   // the border's texel comes first
     vec2 low = floor(at), f = at - low;
-    if (any(lessThan(low, vec2(0.0))) || any(greaterThan(low, vec2(float(side - 2))))) return;
+    if (any(lessThan(low, vec2(0.0))) || any(greaterThan(low, vec2(shaftBlock.grid.x)))) return;
     uint all = uint(amount + rounding);
     uint upper = uint(float(all) * f.y + 0.5), lower = all - upper;
     uint upperRight = uint(float(upper) * f.x + 0.5), lowerRight = uint(float(lower) * f.x + 0.5);
-    int place = start + int(low.y) * side + int(low.x);
-    atomicAdd(shaftSlices[place], lower - lowerRight);
-    atomicAdd(shaftSlices[place + 1], lowerRight);
-    atomicAdd(shaftSlices[place + side], upper - upperRight);
-    atomicAdd(shaftSlices[place + side + 1], upperRight);
+    ivec3 place = ivec3(low, layer);
+    imageAtomicAdd(shaftSlices, place, lower - lowerRight);
+    imageAtomicAdd(shaftSlices, place + ivec3(1, 0, 0), lowerRight);
+    imageAtomicAdd(shaftSlices, place + ivec3(0, 1, 0), upper - upperRight);
+    imageAtomicAdd(shaftSlices, place + ivec3(1, 1, 0), upperRight);
 }
 
 float phase(float cosTheta) {
@@ -49,7 +50,7 @@ float phaseRatio(vec3 position, vec3 direction, vec3 meanDirection) {
 void main() {
     int perTexel = int(shaftBlock.grid.z), side = int(shaftBlock.grid.x) * perTexel;
     ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
-    int i = int(gl_GlobalInvocationID.z);
+    int i = firstSlot + int(gl_GlobalInvocationID.z);
     if (any(greaterThanEqual(cell, ivec2(side)))) return;
     int slot = int(shaftBlock.slots[i].w);
     float fraction = 1.0 / float(perTexel);
@@ -87,10 +88,10 @@ void main() {
         vec4 j = photonJacobian(p, slot, travel) * fraction;
         ivec2 parts = clamp(ivec2(ceil(vec2(length(j.xy), length(j.zw)) - 0.35)), ivec2(1), ivec2(kMostParts));
         int count = parts.x * parts.y;
-        int start = shaftSliceStart(i, k);
+        int target = i * int(shaftBlock.grid.y) + k;
         for (int n = 0; n < count; ++n) {
             vec2 part = (vec2(n % parts.x, n / parts.x) + 0.5) / vec2(parts) - 0.5;
-            deposit(start, t + j.xy * part.x + j.zw * part.y, share / float(count), rounding);
+            deposit(target, t + j.xy * part.x + j.zw * part.y, share / float(count), rounding);
         }
     }
 }

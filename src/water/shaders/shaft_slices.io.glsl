@@ -7,25 +7,22 @@
 
 #include "water/shaft.shared.h"
 
+// Layer slices * slot + slice; a texel of border on each side, so that a footprint at the rim has where to go.
 #ifdef SHAFT_SLICES_WRITTEN
-layout(std430, binding = SHOAL_STORAGE_WATER) buffer ShaftSlices { uint shaftSlices[]; };
+layout(binding = 0, r32ui) uniform uimage2DArray shaftSlices;
 #else
-layout(std430, binding = SHOAL_STORAGE_WATER) readonly buffer ShaftSlices { uint shaftSlices[]; };
+layout(binding = SHOAL_UNIT_SHAFT_SLICES) uniform usampler2DArray shaftSlices;
 #endif
 
 vec2 shaftTexelOf(vec2 s, int i) { return (s - shaftBlock.slots[i].xy) * shaftBlock.slots[i].z; }
 
-// Of slice k of slot i; rows have a texel of border on either side, so that a footprint at the rim has where to go.
-int shaftSliceStart(int i, int k) {
-    int side = int(shaftBlock.grid.x) + 2;
-    return (i * int(shaftBlock.grid.y) + k) * side * side;
+float shaftDepth(int k) {
+    return shaftBlock.depths.x * (uintBitsToFloat(uint(shaftBlock.depths.y * float(k)) + 0x3f800000u) - 1.0);
 }
-
-float shaftDepth(int k) { return shaftBlock.depths.x * (exp2(shaftBlock.depths.y * float(k)) - 1.0); }
 // Slice number, fractional, of a depth.
 float shaftSlice(float depth) {
-    float k = log2(1.0 + max(depth, 0.0) / shaftBlock.depths.x) * shaftBlock.depths.z;
-    return min(k, shaftBlock.grid.y - 1.0);
+    float power = 1.0 + max(depth, 0.0) / shaftBlock.depths.x;
+    return min(float(floatBitsToUint(power) - 0x3f800000u) * shaftBlock.depths.z, shaftBlock.grid.y - 1.0);
 }
 
 #endif

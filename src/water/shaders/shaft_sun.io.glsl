@@ -1,5 +1,5 @@
 // What level water scatters to the eye along a straight path, in closed form: the sun's beam, and the smooth light that
-// comes from all of the water above (veiling light).
+// comes from all of the water above (veiling light). FOURNIER_FORAND: the phase function is theirs.
 // Sources: note on underwater light in docs/references.md: [Mobley 1994] for diffuse attenuation and mean cosines.
 #ifndef SHOAL_WATER_SHAFT_SUN_IO_GLSL
 #define SHOAL_WATER_SHAFT_SUN_IO_GLSL
@@ -24,14 +24,17 @@ vec3 beamDecay(vec3 direction) {
     return waterBlock.beamAttenuation.rgb * (1.0 + direction.y / waterBlock.sunRefracted.y);
 }
 
-// W/(m2 sr) of the sun's beam; depth: of the path's start below the level.
-vec3 levelWaterBeam(float depth, vec3 direction, float lengthM) {
-    if (waterBlock.toSun.w == 0.0 || lengthM <= 0.0) return vec3(0.0);
+// W/(m3 sr) that the sun's beam scatters along a path at its start; depth: of that below the level.
+vec3 levelWaterBeam(float depth, vec3 direction) {
     float cosMean = -waterBlock.sunRefracted.y;
     vec3 beam = waterBlock.sunIrradiance.rgb * (waterBlock.toSun.y * waterBlock.sunRefracted.w / cosMean);
     vec3 arriving = beam * exp(-waterBlock.beamAttenuation.rgb * (depth / cosMean));
+#ifdef FOURNIER_FORAND
     float phase = waterPhase(-dot(waterBlock.sunRefracted.xyz, direction), waterBlock.phase);
-    return waterBlock.beamScattering.rgb * arriving * decayOver(beamDecay(direction), lengthM) * phase;
+#else
+    float phase = phaseHenyeyGreenstein(-dot(waterBlock.sunRefracted.xyz, direction), waterBlock.phase.y);
+#endif
+    return waterBlock.beamScattering.rgb * arriving * phase;
 }
 
 // W/(m2 sr) of light without direction: the sky's, and what the beam has lost but the water still carries down.

@@ -27,6 +27,7 @@ const float kTurn = 6.28318530718;
 const float kBrightest = 40000.0;     // of half floats' 65504
 const float kFirstLook = 20.0;        // metres along a mirrored ray
 const int kLooks = 4;
+const float kBorder = 0.08;           // of the picture's size
 const float kLookTolerance = 0.5;     // of the length: how far off its ray a thing may be to be taken for it
 
 // Sharp to wide: spread is the standard deviation of direction, radians.
@@ -52,25 +53,29 @@ Mirrored lookUp(int which, sampler2D radiances, sampler2D depths, vec3 start, ve
     float depth0 = dot(surfaceBlock.depthRow[which], vec4(start, 1.0));
     float depth1 = dot(surfaceBlock.depthRow[which], vec4(direction, 0.0));
     float t = kFirstLook, met = kFirstLook;
-    vec2 place = vec2(0.0);
+    vec2 place = vec2(0.0), at = vec2(0.0);
     // Where the ray is as deep as what is seen there; level water has it at the first look. What is nearer than the
     // start is not on the ray.
     int looks = ask && surfaceBlock.mirrorSize[which].z > 0.0 ? kLooks : 0;
     for (int i = 0; i < looks; ++i) {
         t = met;
         vec4 clip = clip0 + clip1 * t;
-        place = clamp((clip.xy / max(clip.w, 1e-3) * 0.5 + 0.5) * pixels, vec2(0.5), pixels - 0.5);
+        at = clip.xy / max(clip.w, 1e-3) * 0.5 + 0.5;
+        place = clamp(at * pixels, vec2(0.5), pixels - 0.5);
         float seen = texelFetch(depths, ivec2(place), 0).x - depth0;
         met = seen > 0.0 ? clamp(seen / max(depth1, 1e-4), 0.0, kFarthestWater) : kFarthestWater;
         if (abs(met - t) < 1e-3 * t) break;
     }
     if (looks > 0 && abs(met - t) < kLookTolerance * t + 1.0) {
+        // Beyond its border the picture goes on as there for a little, then there is the sky alone.
+        vec2 beyond = max(abs(at - 0.5) - 0.5, vec2(0.0));
+        float known = clamp(1.0 - max(beyond.x, beyond.y) / kBorder, 0.0, 1.0);
         vec2 corner = floor(place - 0.5), f = place - 0.5 - corner;
         for (int i = 0; i < 4; ++i) {
-            ivec2 at = clamp(ivec2(corner) + ivec2(i & 1, i >> 1), ivec2(0), ivec2(pixels) - 1);
+            ivec2 texel = clamp(ivec2(corner) + ivec2(i & 1, i >> 1), ivec2(0), ivec2(pixels) - 1);
             float share = ((i & 1) != 0 ? f.x : 1.0 - f.x) * (i > 1 ? f.y : 1.0 - f.y);
-            float there = texelFetch(depths, at, 0).x > max(depth0, 0.0) ? share : 0.0;
-            m.radiance += vec4(texelFetch(radiances, at, 0).rgb, 1.0) * there;
+            float there = texelFetch(depths, texel, 0).x > max(depth0, 0.0) ? share * known : 0.0;
+            m.radiance += vec4(texelFetch(radiances, texel, 0).rgb, 1.0) * there;
         }
         m.lengthM = t;
     }

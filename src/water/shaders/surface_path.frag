@@ -12,6 +12,8 @@ layout(location = 0) out vec4 outPath;
 
 const int kSearchSteps = 8;
 const float kFirstGuess = 100.0;    // metres at most that the search begins at
+const float kBlindGuess = 2.0;      // and where nothing lies so near behind the pixel
+const float kLeastDepth = 0.02;     // metres that things may stand above the surface's point and count as wet
 const float kLargestBend = 0.02;    // of the inverse depth, over which neighbouring texels are not one plane
 const float kHitTolerance = 0.05;   // of the path's length: how far off the opaque surface a bent ray may end
 
@@ -41,8 +43,8 @@ vec3 followBent(vec3 start, vec3 direction, vec2 ownPixel, vec3 straight, bool a
     // Bracketed secant [false position, Illinois] on g(t) = depth of the opaque surface less depth of the ray; first
     // where the opaque surface would be if it was level.
     float straightM = min(distance(straight, start), kFarthestWater);
-    float t = clamp((straight.y - start.y) / min(direction.y, -0.1), 0.1 * straightM, 2.0 * straightM);
-    t = min(t, kFirstGuess);
+    float drop = start.y - straight.y, t = clamp(drop / max(-direction.y, 0.1), 0.1 * straightM, 2.0 * straightM);
+    t = drop > 0.0 && t < kFirstGuess ? t : kBlindGuess;
     float low = 0.0, gLow = straightM, high = -1.0, gHigh = 0.0;
     vec3 best = vec3(ownPixel, straightM);
     float bestMiss = 1e30;
@@ -50,19 +52,21 @@ vec3 followBent(vec3 start, vec3 direction, vec2 ownPixel, vec3 straight, bool a
     for (int i = 0; i < rounds; ++i) {
         vec4 clip = clip0 + clip1 * t;
         vec2 pixel = (clip.xy / max(clip.w, 1e-4) * 0.5 + 0.5) * size.xy;
-        bool outside = any(lessThan(pixel, vec2(0.0))) || any(greaterThan(pixel, size.xy));
-        if (outside && low == 0.0) {
-            // Nothing is known there: as if it was level.
-            best = vec3(pixel, t);
+        vec2 inside = clamp(pixel, vec2(0.5), size.xy - 0.5);
+        float opaque = opaqueDepthAt(inside);
+        PixelRay ray = rayOfPixel(inside);
+        vec3 hit = ray.origin + ray.step * opaque;
+        if (inside != pixel) {
+            // Nothing is known there: as if what is seen at the border went on level.
+            t = clamp((start.y - hit.y) / max(-direction.y, 0.1), 0.0, kFarthestWater);
+            clip = clip0 + clip1 * t;
+            best = vec3((clip.xy / max(clip.w, 1e-4) * 0.5 + 0.5) * size.xy, t);
             bestMiss = 0.0;
             break;
         }
-        float opaque = opaqueDepthAt(clamp(pixel, vec2(0.5), size.xy - 0.5));
-        PixelRay ray = rayOfPixel(pixel);
-        vec3 hit = ray.origin + ray.step * opaque;
         float miss = distance(hit, start + direction * t), g = opaque - (depth0 + depth1 * t);
-        // Something nearer than the surface is not in the water.
-        bool behind = dot(hit - start, direction) > 0.0;
+        // What is nearer than the surface or above it is not in the water.
+        bool behind = dot(hit - start, direction) > 0.0 && hit.y < start.y + kLeastDepth;
         bool better = behind && miss < bestMiss;
         best = better ? vec3(pixel, distance(hit, start)) : best;
         bestMiss = better ? miss : bestMiss;
@@ -79,7 +83,9 @@ vec3 followBent(vec3 start, vec3 direction, vec2 ownPixel, vec3 straight, bool a
         }
         t = clamp(t, 0.0, kFarthestWater);
     }
-    return bestMiss <= kHitTolerance * best.z + 0.01 ? best : vec3(ownPixel, straightM);
+    // Found nowhere: as if not bent; behind a crest that hides things in the air, as if deep.
+    float unbentM = straight.y > start.y + kLeastDepth ? kFirstGuess : straightM;
+    return bestMiss <= kHitTolerance * best.z + 0.01 ? best : vec3(ownPixel, unbentM);
 }
 
 void main() {

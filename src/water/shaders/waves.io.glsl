@@ -21,12 +21,22 @@ struct FilteredWave {
     float slopeVariance;    // of the slopes left out: mean of |slope - mean|^2, both axes together
 };
 
-// Angle of plane wave i without whole turns.
-float wavePlaneAngle(vec2 xz, int i) {
-    vec4 turns = waveBlock.planeTurns[i];
-    vec2 whole = floor(xz), part = xz - whole, exact = turns.xy * whole;
-    float t = dot(exact - floor(exact), vec2(1.0)) + dot(turns.zw, whole) + dot(turns.xy + turns.zw, part);
-    return 6.283185307 * (t - floor(t)) + waveBlock.planes[i].w;
+const float kWaveTurn = 6.283185307;
+
+// Sine and cosine of `turns` whole turns: minimax polynomials, off by 3e-7. Faster on llvmpipe than its own, which each
+// reduce the angle again, and the same on every device.
+vec2 waveSinCos(float turns) {
+    float u = turns - floor(turns + 0.5), a = abs(u);
+    vec2 v = vec2(0.25 - abs(a - 0.25), 0.25 - a), q = v * v;
+    v *= 6.283185005 + q * (-41.34165573 + q * (81.60100555 + q * (-76.54977982 + q * 39.53670502)));
+    return vec2(u < 0.0 ? -v.x : v.x, v.y);
+}
+
+// Turns of plane wave p at `whole` metres and a `part` of one (0..1), without most whole ones.
+float wavePlaneTurns(vec4 p, vec2 whole, vec2 part) {
+    vec2 first = floor(p.yz * waveBlock.center.w) * waveBlock.center.z;
+    float exact = dot(first, whole);
+    return (exact - floor(exact)) + (dot(p.yz - first, whole) + (dot(p.yz, part) + p.w));
 }
 
 // Texel coordinates in a tile: whole ones below 0 or above the size are to be wrapped.
@@ -88,23 +98,24 @@ vec3 waveSlopeOfCell(WaveCell c) {
 Wave waveAt(vec2 xz) {
     Wave w = Wave(0.0, vec2(0.0), vec3(0.0));
     int planeCount = int(waveBlock.counts.x), tileCount = int(waveBlock.counts.y);
+    vec2 whole = floor(xz), part = xz - whole;
     for (int i = 0; i < planeCount; ++i) {
         vec4 p = waveBlock.planes[i];
-        float angle = wavePlaneAngle(xz, i);
-        float c = p.x * cos(angle), s = -p.x * sin(angle);
-        w.h += c;
-        w.slope += s * p.yz;
-        w.curvature -= c * vec3(p.y * p.y, p.y * p.z, p.z * p.z);
+        vec2 sc = p.x * waveSinCos(wavePlaneTurns(p, whole, part));
+        w.h += sc.y;
+        vec2 k = kWaveTurn * p.yz;
+        w.slope -= sc.x * k;
+        w.curvature -= sc.y * vec3(k.x * k.x, k.x * k.y, k.y * k.y);
     }
     if (waveBlock.circular.x != 0.0) {
         // a cos(k rho + phase), rho^2 = r^2 + 1 / k^2: derivatives along and across the radius.
         float k = waveBlock.circular.y;
         vec2 away = xz - waveBlock.center.xy;
-        float rho = sqrt(dot(away, away) + 1.0 / (k * k)), angle = k * rho + waveBlock.circular.z;
+        float rho = sqrt(dot(away, away) + 1.0 / (k * k));
         vec2 e = away / rho;
-        float c = waveBlock.circular.x * cos(angle), first = -waveBlock.circular.x * k * sin(angle);
-        float across = first / rho, along = -k * k * c - across;
-        w.h += c;
+        vec2 sc = waveBlock.circular.x * waveSinCos(waveBlock.circular.w * rho + waveBlock.circular.z);
+        float first = -k * sc.x, across = first / rho, along = -k * k * sc.y - across;
+        w.h += sc.y;
         w.slope += first * e;
         w.curvature += vec3(along * e.x * e.x + across, along * e.x * e.y, along * e.y * e.y + across);
     }
@@ -128,16 +139,18 @@ Wave waveAt(vec2 xz) {
 vec3 waveSlopeAt(vec2 xz) {
     vec3 w = vec3(0.0);
     int planeCount = int(waveBlock.counts.x), tileCount = int(waveBlock.counts.y);
+    vec2 whole = floor(xz), part = xz - whole;
     for (int i = 0; i < planeCount; ++i) {
         vec4 p = waveBlock.planes[i];
-        float angle = wavePlaneAngle(xz, i);
-        w += p.x * vec3(cos(angle), -sin(angle) * p.yz);
+        vec2 sc = p.x * waveSinCos(wavePlaneTurns(p, whole, part));
+        w += vec3(sc.y, (-kWaveTurn * sc.x) * p.yz);
     }
     if (waveBlock.circular.x != 0.0) {
         float k = waveBlock.circular.y;
         vec2 away = xz - waveBlock.center.xy;
-        float rho = sqrt(dot(away, away) + 1.0 / (k * k)), angle = k * rho + waveBlock.circular.z;
-        w += waveBlock.circular.x * vec3(cos(angle), -sin(angle) * k * away / rho);
+        float rho = sqrt(dot(away, away) + 1.0 / (k * k));
+        vec2 sc = waveBlock.circular.x * waveSinCos(waveBlock.circular.w * rho + waveBlock.circular.z);
+        w += vec3(sc.y, -sc.x * k / rho * away);
     }
     for (int i = 0; i < tileCount; ++i) w += waveSlopeOfCell(waveCellAt(xz, i));
     return w;
@@ -147,11 +160,14 @@ vec3 waveSlopeAt(vec2 xz) {
 float waveHeightAt(vec2 xz) {
     float h = 0.0;
     int planeCount = int(waveBlock.counts.x), tileCount = int(waveBlock.counts.y);
-    for (int i = 0; i < planeCount; ++i) h += waveBlock.planes[i].x * cos(wavePlaneAngle(xz, i));
+    vec2 whole = floor(xz), part = xz - whole;
+    for (int i = 0; i < planeCount; ++i)
+        h += waveBlock.planes[i].x * waveSinCos(wavePlaneTurns(waveBlock.planes[i], whole, part)).y;
     if (waveBlock.circular.x != 0.0) {
         float k = waveBlock.circular.y;
         vec2 away = xz - waveBlock.center.xy;
-        h += waveBlock.circular.x * cos(k * sqrt(dot(away, away) + 1.0 / (k * k)) + waveBlock.circular.z);
+        float rho = sqrt(dot(away, away) + 1.0 / (k * k));
+        h += waveBlock.circular.x * waveSinCos(waveBlock.circular.w * rho + waveBlock.circular.z).y;
     }
     for (int i = 0; i < tileCount; ++i) {
         WaveCell c = waveCellAt(xz, i);
@@ -162,26 +178,29 @@ float waveHeightAt(vec2 xz) {
     return h;
 }
 
-// A plane wave of amplitude a seen through a footprint: a square's mean has the variance footprint^2 / 12 an axis, and
+// A plane wave (k2: its wave number squared) seen through a footprint: a square's mean has the variance footprint^2 / 12 an axis, and
 // a bell of that variance is what waves are weighted with.
-float waveFade(float k, float footprintM) { return exp(-k * k * footprintM * footprintM / 24.0); }
+float waveFade(float k2, float footprintM) { return exp(-k2 * footprintM * footprintM / 24.0); }
 
 // Mean height and slopes over a square of footprintM metres round the point, and how much the slopes vary within.
 FilteredWave waveSlopeFiltered(vec2 xz, float footprintM) {
     vec3 w = vec3(0.0);
     float variance = 0.0;
     int planeCount = int(waveBlock.counts.x), tileCount = int(waveBlock.counts.y);
+    vec2 whole = floor(xz), part = xz - whole;
     for (int i = 0; i < planeCount; ++i) {
         vec4 p = waveBlock.planes[i];
-        float angle = wavePlaneAngle(xz, i), k2 = dot(p.yz, p.yz), fade = waveFade(sqrt(k2), footprintM);
-        w += fade * p.x * vec3(cos(angle), -sin(angle) * p.yz);
+        float k2 = kWaveTurn * kWaveTurn * dot(p.yz, p.yz), fade = waveFade(k2, footprintM);
+        vec2 sc = fade * p.x * waveSinCos(wavePlaneTurns(p, whole, part));
+        w += vec3(sc.y, (-kWaveTurn * sc.x) * p.yz);
         variance += 0.5 * (1.0 - fade * fade) * p.x * p.x * k2;
     }
     if (waveBlock.circular.x != 0.0) {
-        float k = waveBlock.circular.y, a = waveBlock.circular.x, fade = waveFade(k, footprintM);
+        float k = waveBlock.circular.y, a = waveBlock.circular.x, fade = waveFade(k * k, footprintM);
         vec2 away = xz - waveBlock.center.xy;
-        float rho = sqrt(dot(away, away) + 1.0 / (k * k)), angle = k * rho + waveBlock.circular.z;
-        w += fade * a * vec3(cos(angle), -sin(angle) * k * away / rho);
+        float rho = sqrt(dot(away, away) + 1.0 / (k * k));
+        vec2 sc = fade * a * waveSinCos(waveBlock.circular.w * rho + waveBlock.circular.z);
+        w += vec3(sc.y, -sc.x * k / rho * away);
         variance += 0.5 * (1.0 - fade * fade) * a * a * k * k;
     }
     for (int i = 0; i < tileCount; ++i) {

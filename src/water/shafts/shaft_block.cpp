@@ -1,7 +1,9 @@
 #include "water/shafts/shaft_block.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 
 namespace shoal::water {
 namespace {
@@ -11,7 +13,6 @@ constexpr float kLeastDeepest = 8;      // metres
 constexpr float kOpticalDepth = 7;      // of the clearest channel, below which no light is worth tracing
 constexpr float kMostLight = 16;        // shaft_photons.comp
 constexpr float kWidestRim = 1.0f / 8;  // of a square
-constexpr int kSunSlots = 3;
 
 // Slices of a slot keep a multiple of 8 texels a side, whichever number of photons is asked for.
 struct Lattice {
@@ -34,14 +35,15 @@ Vec3 apparentEye(const Body& body, Vec3 eye) {
 
 }  // namespace
 
-ShaftBlock makeShaftBlock(const ShaftSetup& setup, const ShaftParams& params, const Body& body,
-                          std::span<const LightSlot> slots, const frame::Context& context) {
+ShaftPlan makeShaftPlan(const ShaftSetup& setup, const ShaftParams& params, const Body& body,
+                        std::span<const LightSlot> slots, const frame::Context& context) {
     const float level = body.params.level;
-    ShaftBlock block{};
+    ShaftPlan plan;
+    ShaftBlock& block = plan.block;
     int count = 0;
     float deepest = kLeastDeepest;
     for (const LightSlot& slot : slots) {
-        if (slot.light != -1 || slot.reflected || count == kSunSlots) continue;
+        if (slot.light != -1 || slot.reflected || count == SHOAL_SUN_SHAFT_SLOTS) continue;
         ++count;
         deepest = std::max(deepest, level - slot.bottom);
     }
@@ -50,8 +52,9 @@ ShaftBlock makeShaftBlock(const ShaftSetup& setup, const ShaftParams& params, co
     if (clearest > 0) deepest = std::min(deepest, std::max(kOpticalDepth / clearest, 1.0f));
 
     const Lattice lattice = latticeOf(params.photons, count, setup.resolution);
-    block.grid = {float(lattice.side), float(setup.slices), float(lattice.perTexel), float(count)};
-    const float rate = std::log2(1 + deepest / kFirstScale) / float(setup.slices - 1);
+    block.grid = {float(lattice.side), float(setup.slices), float(lattice.perTexel), 0};
+    const std::uint32_t octaves = std::bit_cast<std::uint32_t>(1 + deepest / kFirstScale) - 0x3f800000u;
+    const float rate = float(octaves) / float(setup.slices - 1);
     block.depths = {kFirstScale, rate, 1 / rate, deepest};
     // All photons of a slot in one texel, each as bright as it may be, and the rounding of each by a unit.
     const double photons = double(lattice.side) * lattice.side * lattice.perTexel * lattice.perTexel;
@@ -61,6 +64,7 @@ ShaftBlock makeShaftBlock(const ShaftSetup& setup, const ShaftParams& params, co
     const Vec3 eye = apparentEye(body, context.view.eye);
     block.eye = {eye.x, eye.y, eye.z, 0};
 
+    for (Vec4& rim : block.rims) rim = {-1, 0, 0, 0};
     int used = 0;
     for (std::size_t i = 0; i < slots.size(); ++i) {
         const LightSlot& slot = slots[i];
@@ -69,10 +73,11 @@ ShaftBlock makeShaftBlock(const ShaftSetup& setup, const ShaftParams& params, co
         block.slots[used] = {float(std::round(slot.origin.x / texel) * texel),
                              float(std::round(slot.origin.y / texel) * texel), float(1 / texel), float(i)};
         const float rim = std::min(slot.margin / float(texel), kWidestRim * float(lattice.side));
-        block.rims[used] = {1, rim / std::max(level - slot.bottom, 1.0f), float(lattice.side - 1), 0};
+        block.rims[used] = {0.5f * float(lattice.side) - 1, rim / std::max(level - slot.bottom, 1.0f), 0, 0};
         ++used;
     }
-    return block;
+    plan.side = lattice.side, plan.cells = lattice.side * lattice.perTexel, plan.sunSlots = count;
+    return plan;
 }
 
 }  // namespace shoal::water

@@ -9,13 +9,13 @@
 
 namespace shoal::water {
 
-// Texels of one slot's slices, borders included.
-inline std::size_t sliceTexels(int side, int slices) {
-    return std::size_t(side + 2) * std::size_t(side + 2) * std::size_t(slices);
-}
-
-// grid.w is 0 where no slot of the sun reaches into the water.
-ShaftBlock makeShaftBlock(const ShaftSetup& setup, const ShaftParams& params, const Body& body,
-                          std::span<const LightSlot> slots, const frame::Context& context);
+struct ShaftPlan {
+    ShaftBlock block{};
+    int side = 0;      // texels of a slice, without the border
+    int cells = 0;     // photons a slot's side
+    int sunSlots = 0;  // 0: no light of the sun reaches into the water
+};
+ShaftPlan makeShaftPlan(const ShaftSetup& setup, const ShaftParams& params, const Body& body,
+                        std::span<const LightSlot> slots, const frame::Context& context);
 
 }  // namespace shoal::water

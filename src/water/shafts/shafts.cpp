@@ -28,6 +28,12 @@ void bindInput(int unit, const gl::TextureView& texture) {
     glBindSampler(GLuint(unit), 0);
 }
 
+// Whether crests can shade the waves behind them: the sun stands lower than the steepest slope.
+bool shadedAbove(const Body& body, const light::Sun& sun) {
+    const Vec3 toSun = normalize(sun.toSun);
+    return toSun.y <= float(body.waves ? body.waves->bounds().slope : 0) * std::hypot(toSun.x, toSun.z);
+}
+
 // A small pixel's middle falls on the corner of four full pixels where it is an even number of them wide: the upper
 // right one is marched.
 float marchedOffset(float pixels) {
@@ -42,19 +48,19 @@ struct Shafts::State {
 
     gl::Device& device;
     ShaftSetup setup;
-    const gl::Program* photons[2] = {};   // [Fournier-Forand]
-    const gl::Program* march[2] = {};     // [paths given]
-    const gl::Program* upsample[2] = {};  // [paths given]
-    const gl::Program* blur[2] = {};      // [axis]
+    const gl::Program* photons[2][2] = {};  // [Fournier-Forand][waves may shade each other, or things above the water]
+    const gl::Program* march[2][2] = {};    // [Fournier-Forand][paths given]
+    const gl::Program* upsample[2] = {};    // [paths given]
+    const gl::Program* blur[2] = {};        // [axis]
     gl::BlockBuffer<ShaftBlock> block;
     gl::BlockBuffer<WaterBlock> water;
-    gl::Buffer slices;
-    gl::Texture ratios, blurred;
-    ShaftBlock current{};
+    gl::Texture slices;            // R32UI array, see shaft_slices.io.glsl
+    gl::Texture sources, blurred;  // RGBA32F, small
+    ShaftPlan plan;
     std::int64_t photonCount = 0;
 
     Result<void> makePrograms();
-    bool reserveSlices(std::size_t texels);
+    bool reserveSlices(int side, int layers);
     bool resizeTargets(int width, int height);
 };
 
@@ -65,31 +71,40 @@ Result<void> Shafts::State::makePrograms() {
         return device.programs().get(desc);
     };
     for (int i = 0; i < 2; ++i) {
-        Defines photonDefines = {{"NO_LAMPS", "1"}};
-        if (i) photonDefines.emplace_back("FOURNIER_FORAND", "1");
         const Defines paths = i ? Defines{{"PATHS", "1"}} : Defines{};
-        SHOAL_TRY_ASSIGN(photons[i], get("water/shaft_photons.comp", photonDefines));
-        SHOAL_TRY_ASSIGN(march[i], get("water/shaft_march.comp", paths));
         SHOAL_TRY_ASSIGN(upsample[i], get("water/shaft_upsample.comp", paths));
         SHOAL_TRY_ASSIGN(blur[i], get("water/shaft_blur.comp", {{"AXIS", std::to_string(i)}}));
+        for (int phase = 0; phase < 2; ++phase) {
+            Defines marchDefines = paths, trace = {{"NO_LAMPS", "1"}};
+            if (phase) marchDefines.emplace_back("FOURNIER_FORAND", "1"), trace.emplace_back("FOURNIER_FORAND", "1");
+            if (!i) trace.emplace_back("NO_WAVE_SHADOWS", "1"), trace.emplace_back("NO_AIR", "1");
+            SHOAL_TRY_ASSIGN(march[phase][i], get("water/shaft_march.comp", marchDefines));
+            SHOAL_TRY_ASSIGN(photons[phase][i], get("water/shaft_photons.comp", trace));
+        }
     }
     return {};
 }
 
-bool Shafts::State::reserveSlices(std::size_t texels) {
-    const std::size_t bytes = texels * sizeof(std::uint32_t);
-    if (slices && slices.bytes() >= bytes) return true;
-    slices = gl::Buffer::create(device, bytes, "shaft slices");
+bool Shafts::State::reserveSlices(int side, int layers) {
+    const gl::TextureView have = slices.view();
+    if (slices && have.width == side + 2 && have.layers >= layers) return true;
+    gl::TextureDesc desc;
+    desc.target = GL_TEXTURE_2D_ARRAY;
+    desc.format = GL_R32UI;
+    desc.width = desc.height = side + 2;
+    desc.layers = layers;
+    desc.label = "shaft slices";
+    slices = gl::Texture::create(device, desc);
     if (slices) return true;
     device.log(LogLevel::error, "water: no memory for the slices of light shafts");
     return false;
 }
 
 bool Shafts::State::resizeTargets(int width, int height) {
-    if (ratios && ratios.width() == width && ratios.height() == height) return true;
-    ratios = frame::makeTarget(device, GL_RGBA16F, width, height, "shafts, marched");
-    blurred = frame::makeTarget(device, GL_RGBA16F, width, height, "shafts, blurred");
-    if (ratios && blurred) return true;
+    if (sources && sources.width() == width && sources.height() == height) return true;
+    sources = frame::makeTarget(device, GL_RGBA32F, width, height, "shafts, marched");
+    blurred = frame::makeTarget(device, GL_RGBA32F, width, height, "shafts, blurred");
+    if (sources && blurred) return true;
     device.log(LogLevel::error, "water: no memory for marching light shafts");
     return false;
 }
@@ -115,28 +130,31 @@ Result<Shafts> Shafts::create(gl::Device& device, const ShaftSetup& setup) {
 void Shafts::render(const frame::Context& context, const ShaftParams& params, const Body& body,
                     const BodyLights& lights, const LightViews& views) {
     State& s = *state_;
-    s.current = makeShaftBlock(s.setup, params, body, views.slots(), context);
+    s.plan = makeShaftPlan(s.setup, params, body, views.slots(), context);
     s.photonCount = 0;
-    const int slots = int(s.current.grid.w), side = int(s.current.grid.x);
+    const int slots = s.plan.sunSlots;
     if (!params.enabled || !scatters(body) || !lights.sun || slots == 0) return;
     SHOAL_ASSERT(body.gpuWaves);
     const gl::PassScope pass(context.timer, "shaft photons");
-    if (!s.reserveSlices(sliceTexels(side, s.setup.slices) * std::size_t(slots))) {
-        s.current.grid.w = 0;
+    if (!s.reserveSlices(s.plan.side, slots * s.setup.slices)) {
+        for (Vec4& rim : s.plan.block.rims) rim.x = -1;
         return;
     }
-    s.slices.clear(0);
-    s.block.write(s.current);
+    const GLuint nothing = 0;
+    s.slices.clear(GL_RED_INTEGER, GL_UNSIGNED_INT, &nothing);
+    s.block.write(s.plan.block);
     s.block.bindUniform(SHOAL_BLOCK_WATER_PASS);
     s.water.write(makeWaterBlock(body, lights));
     s.water.bindUniform(SHOAL_BLOCK_WATER);
     body.gpuWaves->bind();
     views.bind();
-    s.slices.bindStorage(SHOAL_STORAGE_WATER);
-    const int cells = side * int(s.current.grid.z);
-    s.photonCount = std::int64_t(cells) * cells * slots;
-    s.photons[body.optics.phase == Optics::Phase::fournierForand]->dispatch(cells, cells, slots);
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    gl::bindImage(0, s.slices, GL_READ_WRITE);
+    s.photonCount = std::int64_t(s.plan.cells) * s.plan.cells * slots;
+    const bool fournierForand = body.optics.phase == Optics::Phase::fournierForand;
+    const gl::Program& program = *s.photons[fournierForand][shadedAbove(body, *lights.sun) || views.airDrawn()];
+    program.set(0, 0);
+    program.dispatch(s.plan.cells, s.plan.cells, slots);
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
 }
 
 void Shafts::march(const frame::Context& context, const ShaftParams& params, const Body& body, const BodyLights& lights,
@@ -153,17 +171,17 @@ void Shafts::march(const frame::Context& context, const ShaftParams& params, con
     const int fullWidth = outputs.inscatter.width, fullHeight = outputs.inscatter.height;
     const int width = std::max(int(std::ceil(float(fullWidth) * scale)), 1),
               height = std::max(int(std::ceil(float(fullHeight) * scale)), 1);
-    if (!s.resizeTargets(width, height) || !s.reserveSlices(1)) return;
+    if (!s.resizeTargets(width, height) || !s.reserveSlices(std::max(s.plan.side, 1), 1)) return;
 
     const double sample = double(context.sampleIndex);
-    s.current.march = {float(std::clamp(params.steps, 1, 1024)), 1 / scale, float(std::fmod(sample * 0.6180339887, 1)),
-                       float(std::fmod(sample * 512 * 17, 65536))};
-    s.current.small = {marchedOffset(1 / scale), 0, 0, 0};
-    s.block.write(s.current);
+    s.plan.block.march = {float(std::clamp((params.steps + 3) / 4, 1, 256)), 1 / scale,
+                          float(std::fmod(sample * 0.6180339887, 1)), float(std::fmod(sample * 512 * 17, 65536))};
+    s.plan.block.small = {marchedOffset(1 / scale), 0, 0, 0};
+    s.block.write(s.plan.block);
     s.block.bindUniform(SHOAL_BLOCK_WATER_PASS);
     s.water.write(makeWaterBlock(body, lights));
     s.water.bindUniform(SHOAL_BLOCK_WATER);
-    s.slices.bindStorage(SHOAL_STORAGE_WATER);
+    bindInput(SHOAL_UNIT_SHAFT_SLICES, s.slices);
     bindInput(SHOAL_UNIT_PASS, viewDepth);
     const bool bent = bool(paths.path);
     if (bent) {
@@ -173,21 +191,21 @@ void Shafts::march(const frame::Context& context, const ShaftParams& params, con
     }
     {
         const gl::PassScope pass(context.timer, "shaft march");
-        s.ratios.bindImage(0, GL_WRITE_ONLY);
-        s.march[bent]->dispatch(width, height);
+        s.sources.bindImage(0, GL_WRITE_ONLY);
+        s.march[body.optics.phase == Optics::Phase::fournierForand][bent]->dispatch(width, height);
         glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
     }
     {
         const gl::PassScope pass(context.timer, "shaft blur");
         for (int axis = 0; axis < 2; ++axis) {
-            bindInput(SHOAL_UNIT_PASS + 1, axis ? s.blurred : s.ratios);
-            (axis ? s.ratios : s.blurred).bindImage(0, GL_WRITE_ONLY);
+            bindInput(SHOAL_UNIT_PASS + 1, axis ? s.blurred : s.sources);
+            (axis ? s.sources : s.blurred).bindImage(0, GL_WRITE_ONLY);
             s.blur[axis]->dispatch(width, height);
             glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
         }
     }
     const gl::PassScope pass(context.timer, "shaft upsample");
-    bindInput(SHOAL_UNIT_PASS + 1, s.ratios);
+    bindInput(SHOAL_UNIT_PASS + 1, s.sources);
     gl::bindImage(0, outputs.inscatter, GL_WRITE_ONLY);
     s.upsample[bent]->dispatch(fullWidth, fullHeight);
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT);
@@ -196,8 +214,8 @@ void Shafts::march(const frame::Context& context, const ShaftParams& params, con
 frame::Stats Shafts::stats() const {
     const State& s = *state_;
     frame::Stats stats;
-    const auto textureBytes = [](const gl::Texture& t) { return std::int64_t(t.width()) * t.height() * 8; };
-    stats.bytes = std::int64_t(s.slices.bytes()) + textureBytes(s.ratios) + textureBytes(s.blurred);
+    const auto texels = [](const gl::Texture& t) { return std::int64_t(t.width()) * t.height() * t.view().layers; };
+    stats.bytes = 4 * texels(s.slices) + 16 * (texels(s.sources) + texels(s.blurred));
     stats.counts = {{"shaft photons", s.photonCount}};
     return stats;
 }

@@ -14,13 +14,20 @@
 namespace shoal::water {
 namespace {
 
-// value = first + second, where first has 12 significant bits.
-std::pair<float, float> inTwoParts(double value) {
+// The power of two whose multiples up to `greatest` (0 or more) have at most 12 bits.
+double unitOf12Bits(double greatest) {
     int exponent = 0;
-    const double fraction = std::frexp(value, &exponent),
-                 first = std::ldexp(std::round(fraction * 4096), exponent - 12);
+    std::frexp(greatest, &exponent);
+    return std::ldexp(1.0, exponent - 12);
+}
+
+// value = first + second, where first is a multiple of `unit`.
+std::pair<float, float> inTwoParts(double value, double unit) {
+    const double first = unit * std::round(value / unit);
     return {float(first), float(value - first)};
 }
+
+float turns(double radians) { return float(radians / (2 * kPiD)); }
 
 WaveBlock makeWaveBlock(const WaveField& field) {
     WaveBlock block{};
@@ -31,16 +38,18 @@ WaveBlock makeWaveBlock(const WaveField& field) {
     const WaveBounds bounds = field.bounds();
     block.bounds = {float(bounds.height), float(bounds.slope), float(bounds.wavelength), 0};
     const CircularWave& c = field.circularWave();
-    block.circular = {c.amplitude, c.k, c.phase, 0};
-    block.center = {c.centerX, c.centerZ, 0, 0};
+    block.circular = {c.amplitude, c.k, turns(double(c.phase)), turns(double(c.k))};
+    double most = 1e-6;
+    for (const PlaneWave& p : planes) most = std::max({most, std::abs(double(p.turnsX)), std::abs(double(p.turnsZ))});
+    const double unit = unitOf12Bits(most);
+    block.center = {c.centerX, c.centerZ, float(unit), float(1 / unit)};
     for (std::size_t i = 0; i < planes.size(); ++i) {
         const PlaneWave& p = planes[i];
-        const auto x = inTwoParts(double(p.kx) / (2 * kPiD)), z = inTwoParts(double(p.kz) / (2 * kPiD));
-        block.planes[i] = {p.amplitude, p.kx, p.kz, p.phase};
-        block.planeTurns[i] = {x.first, z.first, x.second, z.second};
+        block.planes[i] = {p.amplitude, p.turnsX, p.turnsZ, turns(double(p.phase))};
     }
     for (std::size_t i = 0; i < tiles.size(); ++i) {
-        const auto scale = inTwoParts(double(size) / double(tiles[i].periodM));
+        const double perMetre = double(size) / double(tiles[i].periodM);
+        const auto scale = inTwoParts(perMetre, unitOf12Bits(perMetre));
         block.tiles[i] = {scale.first, scale.second, tiles[i].periodM / float(size), tiles[i].periodM};
     }
     return block;

@@ -9,7 +9,7 @@ namespace {
 
 constexpr float kWiden = 1.15f;               // waves mirror more than a level surface: beyond the picture's borders
 constexpr int kRays = 9;                      // looked at a side of the picture
-constexpr float kWidestWindow = radians(62);  // half angle of the view through the window
+constexpr float kWidestWindow = radians(70);  // half angle of the view through the window
 
 Vec3 column(const Mat4& m, int i) { return {m(0, i), m(1, i), m(2, i)}; }
 

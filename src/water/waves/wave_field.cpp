@@ -33,6 +33,11 @@ std::string number(double value) {
 
 struct MovingPlane {
     double amplitude = 0, kx = 0, kz = 0, phase = 0, omega = 0;
+    // As the GPU has it, in 32 bits: far from the origin the last bits of a wave number count.
+    void round() {
+        kx = 2 * kPiD * double(float(kx / (2 * kPiD)));
+        kz = 2 * kPiD * double(float(kz / (2 * kPiD)));
+    }
 };
 
 }  // namespace
@@ -70,6 +75,7 @@ Result<MovingPlane> movingPlane(const WaveComponentParams& c, double periodM, st
     } else {
         w.kx = 2 * kPiD / periodM * double(c.m), w.kz = 2 * kPiD / periodM * double(c.q);
     }
+    w.round();
     const double k = std::hypot(w.kx, w.kz);
     if (!(k > 0)) return badInput(name + " has no wavelength: expected m and q, or wavelength");
     w.omega = std::sqrt(kGravity * k);
@@ -91,7 +97,8 @@ void WaveField::State::move() {
     };
     planes.clear();
     for (const MovingPlane& w : moving)
-        planes.push_back({float(w.amplitude), float(w.kx), float(w.kz), turned(w.phase, w.omega)});
+        planes.push_back(
+            {float(w.amplitude), float(w.kx / (2 * kPiD)), float(w.kz / (2 * kPiD)), turned(w.phase, w.omega)});
     circular.phase = turned(0, circularOmega);
     const bool tilesMoved = source && source->fill(seconds, tiles);
     const bool moved = !moving.empty() || circular.amplitude != 0 || tilesMoved;
@@ -152,6 +159,7 @@ void addCosine(WaveField::State& state, bool circular) {
         state.circularOmega = std::sqrt(kGravity * k);
     } else {
         state.moving.push_back({amplitude, k, 0, 0, std::sqrt(kGravity * k)});
+        state.moving.back().round();
     }
     if (noise > 0 && p.amplitude > 0)
         state.source = makePerlinNoise({double(p.amplitude) * noise, double(p.wavelength) / 3, p.seed});
@@ -202,7 +210,8 @@ std::uint64_t WaveField::revision() const { return state_->revision; }
 WaveSample WaveField::at(double x, double z) const {
     WaveSample w;
     for (const PlaneWave& p : state_->planes) {
-        const double kx = double(p.kx), kz = double(p.kz), angle = kx * x + kz * z + double(p.phase);
+        const double kx = 2 * kPiD * double(p.turnsX), kz = 2 * kPiD * double(p.turnsZ),
+                     angle = kx * x + kz * z + double(p.phase);
         const double c = double(p.amplitude) * std::cos(angle), s = -double(p.amplitude) * std::sin(angle);
         w.h += c, w.hx += s * kx, w.hz += s * kz;
         w.hxx -= c * kx * kx, w.hxz -= c * kx * kz, w.hzz -= c * kz * kz;
