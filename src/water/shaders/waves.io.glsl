@@ -1,5 +1,6 @@
 // The wave field at a point: height above the mean level and its derivatives. GpuWaves::bind() binds what it reads; the
-// same numbers as WaveField::at.
+// same numbers as WaveField::at. Where a field has no tiles or no circular wave a program may leave their code out by
+// SHOAL_WAVES_NO_TILES, SHOAL_WAVES_NO_CIRCLE (waveDefines): llvmpipe runs it in any case.
 #ifndef SHOAL_WATER_WAVES_IO_GLSL
 #define SHOAL_WATER_WAVES_IO_GLSL
 
@@ -107,6 +108,7 @@ Wave waveAt(vec2 xz) {
         w.slope -= sc.x * k;
         w.curvature -= sc.y * vec3(k.x * k.x, k.x * k.y, k.y * k.y);
     }
+#ifndef SHOAL_WAVES_NO_CIRCLE
     if (waveBlock.circular.x != 0.0) {
         // a cos(k rho + phase), rho^2 = r^2 + 1 / k^2: derivatives along and across the radius.
         float k = waveBlock.circular.y;
@@ -119,6 +121,8 @@ Wave waveAt(vec2 xz) {
         w.slope += first * e;
         w.curvature += vec3(along * e.x * e.x + across, along * e.x * e.y, along * e.y * e.y + across);
     }
+#endif
+#ifndef SHOAL_WAVES_NO_TILES
     for (int i = 0; i < tileCount; ++i) {
         WaveCell c = waveCellAt(xz, i);
         vec3 x0 = cubicValue(c.part.x, c.metres), x1 = cubicFirst(c.part.x, c.metres);
@@ -132,6 +136,7 @@ Wave waveAt(vec2 xz) {
         w.curvature += vec3(k0.x + waveAlongZ(z0, k0, k1), waveAlongZ(z1, s0, s1),
                             waveAlongZ(cubicSecond(c.part.y, c.metres), h0, h1));
     }
+#endif
     return w;
 }
 
@@ -145,6 +150,7 @@ vec3 waveSlopeAt(vec2 xz) {
         vec2 sc = p.x * waveSinCos(wavePlaneTurns(p, whole, part));
         w += vec3(sc.y, (-kWaveTurn * sc.x) * p.yz);
     }
+#ifndef SHOAL_WAVES_NO_CIRCLE
     if (waveBlock.circular.x != 0.0) {
         float k = waveBlock.circular.y;
         vec2 away = xz - waveBlock.center.xy;
@@ -152,7 +158,10 @@ vec3 waveSlopeAt(vec2 xz) {
         vec2 sc = waveBlock.circular.x * waveSinCos(waveBlock.circular.w * rho + waveBlock.circular.z);
         w += vec3(sc.y, -sc.x * k / rho * away);
     }
+#endif
+#ifndef SHOAL_WAVES_NO_TILES
     for (int i = 0; i < tileCount; ++i) w += waveSlopeOfCell(waveCellAt(xz, i));
+#endif
     return w;
 }
 
@@ -163,18 +172,22 @@ float waveHeightAt(vec2 xz) {
     vec2 whole = floor(xz), part = xz - whole;
     for (int i = 0; i < planeCount; ++i)
         h += waveBlock.planes[i].x * waveSinCos(wavePlaneTurns(waveBlock.planes[i], whole, part)).y;
+#ifndef SHOAL_WAVES_NO_CIRCLE
     if (waveBlock.circular.x != 0.0) {
         float k = waveBlock.circular.y;
         vec2 away = xz - waveBlock.center.xy;
         float rho = sqrt(dot(away, away) + 1.0 / (k * k));
         h += waveBlock.circular.x * waveSinCos(waveBlock.circular.w * rho + waveBlock.circular.z).y;
     }
+#endif
+#ifndef SHOAL_WAVES_NO_TILES
     for (int i = 0; i < tileCount; ++i) {
         WaveCell c = waveCellAt(xz, i);
         vec3 x0 = cubicValue(c.part.x, c.metres);
         vec2 h0 = c.left0.xz + waveAlongX(x0, c.left0, c.right0), h1 = c.left1.xz + waveAlongX(x0, c.left1, c.right1);
         h += h0.x + waveAlongZ(cubicValue(c.part.y, c.metres), h0, h1);
     }
+#endif
     return h;
 }
 
@@ -195,6 +208,7 @@ FilteredWave waveSlopeFiltered(vec2 xz, float footprintM) {
         w += vec3(sc.y, (-kWaveTurn * sc.x) * p.yz);
         variance += 0.5 * (1.0 - fade * fade) * p.x * p.x * k2;
     }
+#ifndef SHOAL_WAVES_NO_CIRCLE
     if (waveBlock.circular.x != 0.0) {
         float k = waveBlock.circular.y, a = waveBlock.circular.x, fade = waveFade(k * k, footprintM);
         vec2 away = xz - waveBlock.center.xy;
@@ -203,6 +217,8 @@ FilteredWave waveSlopeFiltered(vec2 xz, float footprintM) {
         w += vec3(sc.y, -sc.x * k / rho * away);
         variance += 0.5 * (1.0 - fade * fade) * a * a * k * k;
     }
+#endif
+#ifndef SHOAL_WAVES_NO_TILES
     for (int i = 0; i < tileCount; ++i) {
         ivec2 corner;
         vec2 f;
@@ -216,6 +232,7 @@ FilteredWave waveSlopeFiltered(vec2 xz, float footprintM) {
         w += blurred.xyz;
         variance += blurred.w;
     }
+#endif
     return FilteredWave(w.x, w.yz, variance);
 }
 

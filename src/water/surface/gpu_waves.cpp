@@ -57,6 +57,13 @@ WaveBlock makeWaveBlock(const WaveField& field) {
 
 }  // namespace
 
+std::vector<std::pair<std::string, std::string>> waveDefines(const WaveField& field) {
+    std::vector<std::pair<std::string, std::string>> defines;
+    if (field.tiles().empty()) defines.emplace_back("SHOAL_WAVES_NO_TILES", "1");
+    if (field.circularWave().amplitude == 0) defines.emplace_back("SHOAL_WAVES_NO_CIRCLE", "1");
+    return defines;
+}
+
 struct GpuWaves::State {
     gl::Device* device = nullptr;
     gl::BlockBuffer<WaveBlock> block;
