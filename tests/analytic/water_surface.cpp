@@ -57,7 +57,8 @@ TEST(WaterSurfaceFunctions, LevelWaterReflectsWhatDoesNotPass) {
         EXPECT_FLOAT_EQ(glsl::roughReflectance(c, float(kIndex), 0),
                         1 - float(fresnelTransmittance(double(c), kIndex)));
     // Rough water reflects less where it is seen at grazing angles.
-    EXPECT_LT(glsl::roughReflectance(0.05f, float(kIndex), 0.02f), 0.6f * glsl::roughReflectance(0.05f, float(kIndex), 0));
+    EXPECT_LT(glsl::roughReflectance(0.05f, float(kIndex), 0.02f),
+              0.6f * glsl::roughReflectance(0.05f, float(kIndex), 0));
 }
 
 TEST(WaterSurfaceFunctions, SlopesProjectToOne) {
@@ -131,8 +132,10 @@ TEST_F(WaterSurface, AbsorptionAlongTheBentPath) {
         const double perMetre[3] = {double(absorption.x), double(absorption.y), double(absorption.z)};
         for (int k = 0; k < 3; ++k) {
             const double expected = passing * std::exp(-perMetre[k] * lengthM);
-            EXPECT_NEAR(double(picture->radiance.at(32, 32)[k]) / (1.25 * expected), 1, 5e-3) << degrees << " channel " << k;
-            EXPECT_NEAR(double(picture->transmittance.at(32, 32)[k]) / expected, 1, 5e-3) << degrees << " channel " << k;
+            EXPECT_NEAR(double(picture->radiance.at(32, 32)[k]) / (1.25 * expected), 1, 5e-3)
+                << degrees << " channel " << k;
+            EXPECT_NEAR(double(picture->transmittance.at(32, 32)[k]) / expected, 1, 5e-3)
+                << degrees << " channel " << k;
         }
     }
 }
@@ -216,8 +219,7 @@ TEST_F(WaterSurface, TotalReflectionAndTheViewUpwards) {
     ASSERT_TRUE(stage) << stage.error().message;
     add(**stage, levelSheet(-4, {0.5f, 0.5f, 0.5f}));
     add(**stage, levelSheet(30, {2, 2, 2}));
-    const light::View view =
-        light::makeView(light::cameraLookingAt({0, -2, 0}, {0, 0, -2.2f}, radians(90)), 160, 120);
+    const light::View view = light::makeView(light::cameraLookingAt({0, -2, 0}, {0, 0, -2.2f}, radians(90)), 160, 120);
     const auto picture = (*stage)->draw(view);
     ASSERT_TRUE(picture) << picture.error().message;
     for (int y = 0; y < 120; y += 7)

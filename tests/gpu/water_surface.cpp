@@ -178,8 +178,7 @@ TEST_F(WaterSurfaceGpu, PathsThroughTheSideOfAnArea) {
     ASSERT_TRUE(stage) << stage.error().message;
     (*stage)->body.params.areaMin = {-6, -3.5f};
     (*stage)->body.params.areaMax = {6, 3.5f};
-    const light::View view =
-        light::makeView(light::cameraLookingAt({0, -1, 8}, {0, -1, 0}, radians(30)), 81, 61);
+    const light::View view = light::makeView(light::cameraLookingAt({0, -1, 8}, {0, -1, 0}, radians(30)), 81, 61);
     const auto picture = (*stage)->draw(view);
     ASSERT_TRUE(picture) << picture.error().message;
     const float* path = picture->path.at(40, 30);
@@ -223,6 +222,44 @@ TEST_F(WaterSurfaceGpu, LevelsShareTheirEdges) {
             ASSERT_FALSE(overlap) << "blocks overlap at " << x0 << " " << z0 << " and " << x1 << " " << z1;
         }
     }
+}
+
+// Eyes on the surface, no area, a picture of one pixel, waves as steep as they may be: numbers everywhere.
+TEST_F(WaterSurfaceGpu, OddCasesGiveNumbers) {
+    auto stage = test::WaterStage::create(device(), 1);
+    ASSERT_TRUE(stage) << stage.error().message;
+    light::Sun sun;
+    sun.toSun = {0, 1, 0};
+    (*stage)->lights.sun = &sun;
+    (*stage)->lights.skyIrradiance = {3, 3, 3};
+    (*stage)->params.foam = true;
+    (*stage)->params.roughness = 0.1f;
+    OpticsParams murky;
+    murky.medium = "jerlov-9C";
+    (*stage)->body.optics = resolveOptics(murky).value();
+    const auto expectNumbers = [&](const light::View& view, const std::string& what) {
+        const auto picture = (*stage)->draw(view, true);
+        ASSERT_TRUE(picture) << picture.error().message;
+        for (const Image* image : {&picture->radiance, &picture->path, &picture->transmittance, &picture->waterDepth})
+            for (const float x : image->pixels) ASSERT_TRUE(std::isfinite(x)) << what;
+    };
+    WaveComponentParams steep;
+    steep.amplitude = 0.3f, steep.m = 3;
+    for (const bool waves : {false, true}) {
+        if (waves) {
+            ASSERT_TRUE((*stage)->setWaves(ofKind("sum"), std::span(&steep, 1)));
+        }
+        const std::string kind = waves ? "waves, " : "level, ";
+        for (const float y : {0.0f, 1e-4f, -1e-4f, 0.05f, 300.0f})
+            for (const Vec3 to : {Vec3{1, 0, 0}, Vec3{0, 0, 1}, Vec3{0.3f, -1, 0}, Vec3{0.3f, 1, 0}})
+                expectNumbers(light::makeView(light::cameraLookingAt({0, y, 0}, Vec3{0, y, 0} + to, 1), 33, 17),
+                              kind + std::to_string(y));
+    }
+    expectNumbers(light::makeView(light::cameraLookingAt({0, 1, 0}, {0, 0, -1}, 1), 1, 1), "one pixel");
+    expectNumbers(light::makeView(light::cameraLookingAt({0, 2, 0}, {0, 0, 0}, 1), 16, 16), "straight down");
+    expectNumbers(light::makeView(light::cameraLookingAt({0, -2, 0}, {0, 0, 0}, 1), 16, 16), "straight up");
+    (*stage)->body.params.areaMax = (*stage)->body.params.areaMin = {0, 0};
+    expectNumbers(light::makeView(light::cameraLookingAt({0, 1, 3}, {0, 0, 0}, 1), 16, 16), "no area");
 }
 
 TEST_F(WaterSurfaceGpu, BlockLayout) {

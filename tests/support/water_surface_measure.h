@@ -1,5 +1,5 @@
-// A stage for the water surface (a body of water, what stands in it, a sky of one brightness) and what is measured on it.
-// No test framework: benchmarks use it too.
+// A stage for the water surface (a body of water, what stands in it, a sky of one brightness) and what is measured on
+// it. No test framework: benchmarks use it too.
 #pragma once
 
 #include <cmath>
@@ -20,9 +20,9 @@
 namespace shoal::test {
 
 struct WaterPicture {
-    Image radiance;                         // 3 channels, row 0 on top
-    Image surfaceDepth, path, viewDepth;    // 1, 4 and 1 channels
-    Image transmittance, waterDepth;        // 3 and 1, when terms were wanted
+    Image radiance;                       // 3 channels, row 0 on top
+    Image surfaceDepth, path, viewDepth;  // 1, 4 and 1 channels
+    Image transmittance, waterDepth;      // 3 and 1, when terms were wanted
 };
 
 class WaterStage {
@@ -50,7 +50,8 @@ public:
         return stage;
     }
 
-    Result<void> setWaves(const water::WaveParams& params, std::span<const water::WaveComponentParams> components = {}) {
+    Result<void> setWaves(const water::WaveParams& params,
+                          std::span<const water::WaveComponentParams> components = {}) {
         SHOAL_TRY_ASSIGN(waves, water::WaveField::create(params, components));
         return {};
     }
@@ -89,8 +90,8 @@ public:
     std::optional<frame::Geometry> geometry;
     std::optional<water::Surface> surface;
     std::optional<water::WaveField> waves;
-    water::Body body;             // waves and gpuWaves are filled by draw()
-    water::BodyLights lights;     // none: no veil, no glitter
+    water::Body body;          // waves and gpuWaves are filled by draw()
+    water::BodyLights lights;  // none: no veil, no glitter
     water::SurfaceParams params;
 
 private:
@@ -135,15 +136,16 @@ private:
 
 // Snell's window seen from 2 m under level, clear water by an eye that looks straight up; sky of radiance 1.
 struct SnellWindow {
-    double radiusPx = 0;         // of the circle as large as all that is lit
-    double exactRadiusPx = 0;    // 1.134542 f for n = 1.333
-    double zenithFactor = 0;     // radiance at the zenith: n^2 T = 1.740688
-    double darkOutside = 0;      // brightest radiance well outside: total reflection of black
+    double radiusPx = 0;       // of the circle as large as all that is lit
+    double exactRadiusPx = 0;  // 1.134542 f for n = 1.333
+    double zenithFactor = 0;   // radiance at the zenith: n^2 T = 1.740688
+    double darkOutside = 0;    // brightest radiance well outside: total reflection of black
 };
 inline Result<SnellWindow> measureSnellWindow(gl::Device& device, int width, int height) {
     SHOAL_TRY_ASSIGN(const std::unique_ptr<WaterStage> stage, WaterStage::create(device, 1));
     const float fov = radians(100);
-    const light::View view = light::makeView(light::cameraLookingAt({0.3f, -2, 0.2f}, {0.3f, 0, 0.2f}, fov), width, height);
+    const light::View view =
+        light::makeView(light::cameraLookingAt({0.3f, -2, 0.2f}, {0.3f, 0, 0.2f}, fov), width, height);
     SHOAL_TRY_ASSIGN(const WaterPicture picture, stage->draw(view));
     SnellWindow window;
     const double f = 0.5 * double(height) / std::tan(0.5 * double(fov)), index = double(stage->body.optics.index);

@@ -83,8 +83,8 @@ Mirrored lookUp(int which, sampler2D radiances, sampler2D depths, vec3 start, ve
 }
 
 // Smooth light that a stretch of water scatters to its end [closed form; water of one brightness, that of the depth
-// where the stretch begins]: for paths that no shafts were marched along.
-vec3 veil(vec3 start, float lengthM, vec3 lost) {
+// where the stretch begins]: for paths that no shafts were marched along. lost: what dims the stretch.
+vec3 veil(vec3 start, vec3 lost) {
     float deep = max(waterBlock.shape.x - start.y, 0.0);
     vec3 sun = waterBlock.sunIrradiance.rgb * (-waterBlock.sunRefracted.y * waterBlock.sunRefracted.w);
     vec3 down = 0.934 * waterBlock.skyIrradiance.rgb * exp(-waterBlock.diffuseAttenuation.rgb * deep) +
@@ -102,91 +102,98 @@ vec4 airAlong(vec3 start, vec3 direction, float spread, bool ask) {
     return vec4(skyRadiance(up, spread) * (1.0 - m.radiance.a) + m.radiance.rgb, 1.0 - m.radiance.a);
 }
 
+// What happens at the surface. normal: on the ray's side.
+struct Interface {
+    float reflectance;
+    vec3 air;        // where the ray goes in the air: mirrored, or bent out of the water
+    vec3 mirrored;
+    float spread;    // of `air`, radians
+};
+
+Interface interfaceAt(vec3 direction, vec3 normal, float variance, bool enters) {
+    Interface s;
+    float index = waterBlock.shape.y, cosSeen = clamp(-dot(direction, normal), 1e-3, 1.0);
+    // From afar the sides of waves that face the eye are seen more than the others.
+    float lean = enters ? variance / max(cosSeen, sqrt(variance) + 1e-6) : 0.0;
+    s.mirrored = reflect(direction, normalize(normal - vec3(direction.x, 0.0, direction.z) * lean));
+    s.spread = (enters ? 2.0 : index) * sqrt(variance);
+    if (enters) {
+        s.reflectance = roughReflectance(cosSeen, index, variance);
+        s.air = s.mirrored;
+    } else {
+        // Waves too small to see smooth the window's rim: mean of three slopes.
+        float tilt = 1.2247 * sqrt(variance), sine = sqrt(1.0 - cosSeen * cosSeen), passes = 0.0;
+        for (int i = -1; i <= 1; ++i) {
+            float c = clamp((cosSeen + float(i) * tilt * sine) / sqrt(1.0 + tilt * tilt * float(i * i)), 0.0, 1.0);
+            float sine2 = (1.0 - c * c) * index * index;
+            passes += sine2 < 1.0 ? fresnelTransmittance(sqrt(1.0 - sine2), index) : 0.0;
+        }
+        s.reflectance = 1.0 - passes / 3.0;
+        vec3 bent = refractedDirection(direction, normal, 1.0 / index);
+        s.air = dot(bent, bent) > 0.5 ? bent : normalize(vec3(direction.x, 1e-3, direction.z));
+    }
+    return s;
+}
+
+// Radiance of the sun, mirrored or bent, per irradiance on a plane facing it: its disc and the slopes are one lobe
+// [Walter et al. 2007, eq. 20 and 21].
+float sunLobe(vec3 direction, vec3 normal, float variance, bool enters) {
+    vec3 toSun = lightBlock.toSun.xyz;
+    float index = waterBlock.shape.y, cosSeen = clamp(-dot(direction, normal), 1e-3, 1.0);
+    float widened = variance + 0.25 * lightBlock.sunIrradiance.w * lightBlock.sunIrradiance.w;
+    float seen = seenCosine(cosSeen, variance), lobe;
+    if (enters) {
+        vec3 facet = normalize(toSun - direction);
+        float cosFacet = dot(facet, normal), cosIn = clamp(dot(facet, toSun), 0.0, 1.0);
+        lobe = (1.0 - fresnelTransmittance(cosIn, index)) * slopeDensity(cosFacet, widened) / (4.0 * seen);
+        lobe = cosFacet > 0.0 && dot(toSun, normal) > 0.0 ? lobe : 0.0;
+    } else {
+        vec3 facet = normalize(index * direction - toSun);   // upwards
+        float cosFacet = -dot(facet, normal), cosIn = max(dot(facet, toSun), 0.0), cosOut = max(dot(facet, direction), 0.0);
+        float together = index * cosOut - cosIn;
+        lobe = cosIn * cosOut * index * index * fresnelTransmittance(cosIn, index) * slopeDensity(cosFacet, widened) /
+               (seen * max(together * together, 1e-6));
+        lobe = cosFacet > 0.0 ? lobe : 0.0;
+    }
+    return lightBlock.toSun.w > 0.0 ? lobe : 0.0;
+}
+
 void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
-    vec2 uv = gl_FragCoord.xy / vec2(textureSize(opaqueDepth, 0));
     float surface = texelFetch(waterSurfaceDepth, at, 0).x;
     vec4 traced = texelFetch(waterPathTexture, at, 0);
     PixelRay ray = rayOfPixel(gl_FragCoord.xy);
-    float stepM = length(ray.step);
-    vec3 direction = ray.step / stepM;
+    vec3 direction = normalize(ray.step), start = ray.origin + ray.step * abs(surface);
 
-    // The surface: normal to the ray's side, what is mirrored and what passes.
-    float index = waterBlock.shape.y, index2 = index * index;
+    float index2 = waterBlock.shape.y * waterBlock.shape.y;
     bool meets = surface != 0.0, enters = surface > 0.0;
     vec3 normal = decodeNormal(texelFetch(waterSurfaceNormal, at, 0).xy) * (enters ? 1.0 : -1.0);
-    vec3 start = ray.origin + ray.step * abs(surface);
     float variance = 0.5 * texelFetch(spreadTexture, at, 0).x + surfaceBlock.look.x;
-    float cosSeen = clamp(-dot(direction, normal), 1e-3, 1.0);
-    // From afar the sides of waves that face the eye are seen more than the others.
-    vec3 levelToEye = vec3(-direction.x, 0.0, -direction.z);
-    vec3 seenNormal = normalize(normal + (enters ? levelToEye * (variance / max(cosSeen, sqrt(variance) + 1e-6)) : vec3(0.0)));
-    vec3 mirrored = reflect(direction, seenNormal);
-    vec3 bent = refractedDirection(direction, normal, enters ? index : 1.0 / index);
-    float reflectance;
-    vec3 air;   // where the ray goes in the air
-    if (enters) {
-        reflectance = roughReflectance(cosSeen, index, variance);
-        air = mirrored;
-    } else {
-        // Waves too small to see smooth the window's rim: mean of three slopes.
-        float tilt = 1.2247 * sqrt(variance), passes = 0.0;
-        float sine = sqrt(1.0 - cosSeen * cosSeen);
-        for (int i = -1; i <= 1; ++i) {
-            float c = clamp((cosSeen + float(i) * tilt * sine) / sqrt(1.0 + tilt * tilt * float(i * i)), 0.0, 1.0);
-            float sine2 = (1.0 - c * c) * index2;
-            passes += sine2 < 1.0 ? fresnelTransmittance(sqrt(1.0 - sine2), index) : 0.0;
-        }
-        reflectance = 1.0 - passes / 3.0;
-        vec3 rim = normalize(vec3(direction.x, 1e-3, direction.z));
-        air = dot(bent, bent) > 0.5 ? bent : rim;
-    }
-    float spread = (enters ? 2.0 : index) * sqrt(variance);
-    vec4 fromAir = airAlong(start, air, spread, meets);
-
-    // The sun, a wide lobe: its disc and the slopes together.
-    vec3 toSun = lightBlock.toSun.xyz;
-    float sunVariance = variance + lightBlock.sunIrradiance.w * lightBlock.sunIrradiance.w * 0.25;
-    float cosSun = dot(toSun, normal) * (enters ? 1.0 : -1.0), sunPart = 0.0;
-    vec3 half_ = enters ? normalize(toSun - direction) : normalize(index * direction - toSun);
-    if (enters) {
-        float cosH = dot(half_, normal), cosTilted = clamp(dot(half_, toSun), 0.0, 1.0);
-        sunPart = (1.0 - fresnelTransmittance(cosTilted, index)) * slopeDensity(cosH, sunVariance) /
-                  (4.0 * seenCosine(cosSeen, variance));
-        sunPart = cosH > 0.0 && cosSun > 0.0 ? sunPart : 0.0;
-    } else {
-        // Normal that bends the sun's ray into this one, on the air's side.
-        vec3 up = half_.y < 0.0 ? -half_ : half_;
-        float cosH = -dot(up, normal), cosIn = max(dot(up, toSun), 0.0), cosOut = max(dot(up, direction), 0.0);
-        float together = index * cosOut - cosIn;
-        sunPart = cosIn * cosOut * index2 * fresnelTransmittance(cosIn, index) * slopeDensity(cosH, sunVariance) /
-                  (seenCosine(cosSeen, variance) * max(together * together, 1e-6));
-        sunPart = cosH > 0.0 ? sunPart : 0.0;
-    }
-    sunPart = lightBlock.toSun.w > 0.0 ? sunPart * fromAir.a : 0.0;
-    vec3 sun = min(lightBlock.sunIrradiance.rgb * sunPart, vec3(kBrightest));
+    Interface s = interfaceAt(direction, normal, variance, enters);
+    vec4 fromAir = airAlong(start, s.air, s.spread, meets);
+    vec3 sun = lightBlock.sunIrradiance.rgb * (sunLobe(direction, normal, variance, enters) * fromAir.a);
+    sun = min(sun, vec3(kBrightest));
 
     // The stretch of water.
     vec3 lost = dimming(traced.z);
-    vec2 place = uv + traced.xy;
-    vec4 opaque = textureLod(radianceTexture, place, 0.0);
+    vec2 uv = gl_FragCoord.xy / vec2(textureSize(opaqueDepth, 0));
+    vec4 opaque = textureLod(radianceTexture, uv + traced.xy, 0.0);
     vec3 inscatter = texelFetch(inscatterTexture, at, 0).rgb;
-    if (surfaceBlock.grid.w == 0.0) inscatter = veil(enters ? start : ray.origin, traced.z, lost);
-
-    vec3 radiance;
+    if (surfaceBlock.grid.w == 0.0) inscatter = veil(enters ? start : ray.origin, lost);
+    vec3 fromWater = opaque.rgb * lost + inscatter, radiance;
     if (enters) {
-        radiance = reflectance * fromAir.rgb + sun + (1.0 - reflectance) / index2 * (opaque.rgb * lost + inscatter);
+        radiance = s.reflectance * fromAir.rgb + sun + (1.0 - s.reflectance) / index2 * fromWater;
 #ifdef FOAM
+        vec3 bent = refractedDirection(direction, normal, waterBlock.shape.y);
         radiance = withFoam(radiance, start, normal, -bent.y * traced.z, traced.z);
 #endif
     } else if (meets) {
-        Mirrored under = lookUp(1, waterRadiance, waterDepth, start, mirrored, true);
+        Mirrored under = lookUp(1, waterRadiance, waterDepth, start, s.mirrored, true);
         vec3 lostUnder = dimming(under.lengthM);
-        vec3 fromWater = under.radiance.rgb * lostUnder + veil(start, under.lengthM, lostUnder);
-        vec3 atSurface = (1.0 - reflectance) * index2 * fromAir.rgb + sun + reflectance * fromWater;
-        radiance = atSurface * lost + inscatter;
+        vec3 mirrored = under.radiance.rgb * lostUnder + veil(start, lostUnder);
+        radiance = ((1.0 - s.reflectance) * index2 * fromAir.rgb + sun + s.reflectance * mirrored) * lost + inscatter;
     } else {
-        radiance = traced.z > 0.0 ? opaque.rgb * lost + inscatter : opaque.rgb;
+        radiance = traced.z > 0.0 ? fromWater : opaque.rgb;
     }
     outRadiance = vec4(min(radiance, vec3(65000.0)), meets || traced.z > 0.0 ? 1.0 : opaque.a);
 }

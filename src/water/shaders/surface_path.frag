@@ -31,7 +31,7 @@ float opaqueDepthAt(vec2 pixel) {
 
 // Mirrored at the picture's borders: what lies beyond them is not known, and looks like what lies before.
 vec2 insidePicture(vec2 pixel) {
-    vec2 last = size.xy - 1.0;
+    vec2 last = max(size.xy - 1.0, vec2(1.0));
     vec2 turned = mod(abs(pixel - 0.5), 2.0 * last);
     return min(turned, 2.0 * last - turned) + 0.5;
 }
