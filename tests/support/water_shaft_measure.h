@@ -93,7 +93,6 @@ public:
         ++context.frameIndex;
         body.optics = optics, body.waves = &waves, body.gpuWaves = &gpuWaves;
         (void)gpuWaves.update(waves);
-        lights = {};
         lights.sun = sunShines ? &sun : nullptr;
         lights.punctual = lamps;
         gl::setKnownState();
@@ -180,12 +179,12 @@ struct WavyShaftError {
     double contrast = 0;  // of the truth: standard deviation of its ratio to level water's
 };
 
-// S1 seen from 2 m below over a floor at 6 m, with a post 3 m away whose edges cut the paths (it stands in the picture
-// alone: it takes no light away).
+// S1 seen from 3 m below along its crests, over a floor at 6 m, with a post 3 m away whose edges cut the paths (it
+// stands in the picture alone: it takes no light away).
 inline WavyShaftError wavyShaftError(gl::Device& device, float resolutionScale = 0.25f, int photons = 40000,
                                      double zenith = 0, bool print = false, const water::ShaftSetup& setup = {},
                                      Image* drawn = nullptr, Image* truth = nullptr) {
-    constexpr int kWidth = 320, kHeight = 180, kStride = 4, kSteps = 96;
+    constexpr int kWidth = 320, kHeight = 180, kStride = 5, kSteps = 64;
     ShaftScene scene(device, kWidth, kHeight, sinusoidS1(), setup);
     const Vec3 eye{0.1f, -3, 0};
     scene.look(eye, eye + Vec3{0.05f, -0.1f, -1}, 40);
@@ -216,7 +215,8 @@ inline WavyShaftError wavyShaftError(gl::Device& device, float resolutionScale =
         const int y = int(i);
         for (int x = 0; y % kStride == 0 && x < kWidth; x += kStride) {
             const Vec3 d = scene.rayOf(x, y);
-            water::analytic::ShaftRay ray{-double(eye.y), double(eye.x), double(d.x), double(d.y), double(d.z), distance(d)};
+            water::analytic::ShaftRay ray{-double(eye.y), double(eye.x), double(d.x),
+                                          double(d.y),    double(d.z),   distance(d)};
             const double expected = water::analytic::sinusoidShaft({}, s, ray, kSteps);
             const double found = double(picture.at(x, y)[1]);
             bool nearEdge = false;
@@ -254,6 +254,38 @@ inline WavyShaftError wavyShaftError(gl::Device& device, float resolutionScale =
             "wavy, scale %.2f, %d photons, zenith %.2f: rmse %.4f, edges %.4f (%d pixels), mean %+.4f, contrast %.3f\n",
             double(resolutionScale), photons, zenith, error.rmse, error.edgeRmse, at.count, error.mean, error.contrast);
     return error;
+}
+
+// Mean over a picture of S1's shafts seen across the waves (it averages them), by the given numbers.
+inline double meanShaft(gl::Device& device, const water::ShaftSetup& setup, const water::ShaftParams& params) {
+    ShaftScene scene(device, 96, 64, sinusoidS1(), setup);
+    scene.params = params;
+    scene.setDistances([](Vec3) { return 8.0; });
+    const Image picture = scene.picture();
+    double sum = 0;
+    for (std::size_t i = 1; i < picture.pixels.size(); i += 3) sum += double(picture.pixels[i]);
+    return sum / double(picture.pixels.size() / 3);
+}
+
+// How far that mean moves, relative, when photons, slices' size and number, steps and the small picture's size do.
+inline double shaftInvariance(gl::Device& device, bool print = false) {
+    const double usual = meanShaft(device, {}, {});
+    double worst = 0;
+    const auto add = [&](const char* what, const water::ShaftSetup& setup, const water::ShaftParams& params) {
+        const double away = std::abs(meanShaft(device, setup, params) / usual - 1);
+        if (print) std::printf("invariance, %s: %.5f\n", what, away);
+        worst = std::max(worst, away);
+    };
+    add("4 times the photons", {}, {.photons = 160000});
+    add("a quarter of the photons", {}, {.photons = 10000});
+    add("1 M photons", {}, {.photons = 1000000});
+    add("half the slices' size", {.resolution = 64}, {});
+    add("twice the slices", {.slices = 32}, {});
+    add("twice the steps", {}, {.steps = 64});
+    add("half the steps", {}, {.steps = 16});
+    add("full size", {}, {.resolutionScale = 1});
+    add("quarter size", {}, {.resolutionScale = 0.25f});
+    return worst;
 }
 
 }  // namespace shoal::test
