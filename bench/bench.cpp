@@ -20,8 +20,8 @@ namespace shoal::bench {
 const std::vector<Benchmark>& benchmarks() {
     static const std::vector<Benchmark> all = [] {
         std::vector<Benchmark> every;
-        for (const auto& some :
-             {frameBenchmarks(), waterTruthBenchmarks(), waterShaftBenchmarks(), waterSpeedBenchmarks()})
+        for (const auto& some : {frameBenchmarks(), waterTruthBenchmarks(), waterShaftBenchmarks(),
+                                 waterSceneBenchmarks(), waterSpeedBenchmarks()})
             every.insert(every.end(), some.begin(), some.end());
         return every;
     }();
