@@ -70,8 +70,8 @@ WaveCell waveCellAt(vec2 xz, int tile) {
     return c;
 }
 
-// Weights of the cubic through p0 and p1 with derivatives d0 and d1, d metres apart: of p1 - p0, d0 and d1, for the value
-// above p0, the first and the second derivative.
+// Weights of the cubic through p0 and p1 with derivatives d0 and d1, d metres apart: of p1 - p0, d0 and d1, for the
+// value above p0, the first and the second derivative.
 vec3 cubicValue(float u, float d) {
     return vec3(u * u * (3.0 - 2.0 * u), u * (1.0 - u) * (1.0 - u) * d, u * u * (u - 1.0) * d);
 }
@@ -191,8 +191,8 @@ float waveHeightAt(vec2 xz) {
     return h;
 }
 
-// A plane wave (k2: its wave number squared) seen through a footprint: a square's mean has the variance footprint^2 / 12 an axis, and
-// a bell of that variance is what waves are weighted with.
+// A plane wave (k2: its wave number squared) seen through a footprint: a square's mean has the variance
+// footprint^2 / 12 an axis, and a bell of that variance is what waves are weighted with.
 float waveFade(float k2, float footprintM) { return exp(-k2 * footprintM * footprintM / 24.0); }
 
 // Mean height and slopes over a square of footprintM metres round the point, and how much the slopes vary within.
