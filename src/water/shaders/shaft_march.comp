@@ -11,7 +11,7 @@
 #endif
 
 layout(local_size_x = 8, local_size_y = 8) in;
-// rgb: mean source, W/(m3 sr); a: metres of path, 0: none
+// rgb: mean source, W/(m3 sr); a: seen length of the path, 0: there is none
 layout(binding = 0, rgba32f) uniform writeonly image2D sourceImage;
 
 const float kFarthest = 7.0;   // optical depths of the clearest channel that are marched: e^-7 is a thousandth
@@ -90,5 +90,5 @@ void main() {
     diffuse += lampsInWater(path.start, path.direction, path.lengthM, jitter);
 #endif
     vec3 source = levelWaterBeam(depth0, path.direction) * min(ratio, vec3(1000.0)) + diffuse / max(even, vec3(1e-6));
-    imageStore(sourceImage, low, vec4(source, path.lengthM));
+    imageStore(sourceImage, low, vec4(source, seenLength(path.lengthM)));
 }

@@ -18,6 +18,9 @@ float decayOver(float k, float s) {
 }
 vec3 decayOver(vec3 k, float s) { return vec3(decayOver(k.x, s), decayOver(k.y, s), decayOver(k.z, s)); }
 
+// What paths are compared by: metres, less and less of them the farther away they are and the dimmer.
+float seenLength(float lengthM) { return decayOver(waterBlock.beamAttenuation.w, lengthM); }
+
 // 1/sr.
 float shaftPhase(float cosTheta) {
 #ifdef FOURNIER_FORAND
