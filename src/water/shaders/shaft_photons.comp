@@ -5,6 +5,7 @@
 #define SHAFT_SLICES_WRITTEN
 #include "water/shaft_slices.io.glsl"
 #include "water/photon.io.glsl"
+#include "water/shaft_sun.io.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -30,20 +31,12 @@ void deposit(int layer, vec2 t, float amount, float rounding) {
     imageAtomicAdd(shaftSlices, place + ivec3(1, 1, 0), upperRight);
 }
 
-float phase(float cosTheta) {
-#ifdef FOURNIER_FORAND
-    return waterPhase(cosTheta, waterBlock.phase);
-#else
-    return phaseHenyeyGreenstein(cosTheta, waterBlock.phase.y);
-#endif
-}
-
 // How much more (or less) of a photon's light turns to the eye than of light on the mean way: the march takes the mean
 // one's phase.
 float phaseRatio(vec3 position, vec3 direction, vec3 meanDirection) {
     vec3 toEye = shaftBlock.eye.xyz - position;
     toEye *= inversesqrt(max(dot(toEye, toEye), 1e-6));
-    float ratio = phase(dot(direction, toEye)) / max(phase(dot(meanDirection, toEye)), 1e-12);
+    float ratio = shaftPhase(dot(direction, toEye)) / max(shaftPhase(dot(meanDirection, toEye)), 1e-12);
     return clamp(ratio, 0.2, 5.0);
 }
 

@@ -34,6 +34,15 @@ bool shadedAbove(const Body& body, const light::Sun& sun) {
     return toSun.y <= float(body.waves ? body.waves->bounds().slope : 0) * std::hypot(toSun.x, toSun.z);
 }
 
+// 0: there are none, 1: some, 2: some that cast shadows.
+int lampsInWater(const Body& body, const BodyLights& lights) {
+    int found = 0;
+    for (const light::PunctualLight& lamp : lights.punctual)
+        if (lamp.position.y < body.params.level)
+            found = std::max(found, lamp.kind == light::PunctualLight::Kind::spot && lamp.castsShadow ? 2 : 1);
+    return found;
+}
+
 // A small pixel's middle falls on the corner of four full pixels where it is an even number of them wide: the upper
 // right one is marched.
 float marchedOffset(float pixels) {
@@ -48,10 +57,10 @@ struct Shafts::State {
 
     gl::Device& device;
     ShaftSetup setup;
-    const gl::Program* photons[2][2] = {};  // [Fournier-Forand][waves may shade each other, or things above the water]
-    const gl::Program* march[2][2] = {};    // [Fournier-Forand][paths given]
-    const gl::Program* upsample[2] = {};    // [paths given]
-    const gl::Program* blur[2] = {};        // [axis]
+    const gl::Program* photons[2][2] = {};   // [Fournier-Forand][waves may shade each other, or things above the water]
+    const gl::Program* march[2][2][3] = {};  // [Fournier-Forand][paths given][lamps in water: none, some, with shadows]
+    const gl::Program* upsample[2] = {};     // [paths given]
+    const gl::Program* blur[2] = {};         // [axis]
     gl::BlockBuffer<ShaftBlock> block;
     gl::BlockBuffer<WaterBlock> water;
     gl::Texture slices;            // R32UI array, see shaft_slices.io.glsl
@@ -59,29 +68,54 @@ struct Shafts::State {
     ShaftPlan plan;
     std::int64_t photonCount = 0;
 
+    bool failed = false;  // a program did not build; `problem` says why
+    std::string problem;
+
+    const gl::Program* get(const gl::Program*& kept, const char* name, const Defines& defines);
+    const gl::Program* photonProgram(bool fournierForand, bool shaded);
+    const gl::Program* marchProgram(bool fournierForand, bool bent, int lamps);
     Result<void> makePrograms();
     bool reserveSlices(int side, int layers);
     bool resizeTargets(int width, int height);
 };
 
+const gl::Program* Shafts::State::get(const gl::Program*& kept, const char* name, const Defines& defines) {
+    if (kept || failed) return kept;
+    gl::ProgramDesc desc{{name}, defines, name};
+    for (const auto& define : defines) desc.label += " " + define.first;
+    const auto made = device.programs().get(desc);
+    if (made) return kept = *made;
+    failed = true;
+    problem = made.error().message;
+    device.log(LogLevel::error, "water: " + problem);
+    return nullptr;
+}
+
+const gl::Program* Shafts::State::photonProgram(bool fournierForand, bool shaded) {
+    Defines defines = {{"NO_LAMPS", "1"}};
+    if (fournierForand) defines.emplace_back("FOURNIER_FORAND", "1");
+    if (!shaded) defines.emplace_back("NO_WAVE_SHADOWS", "1"), defines.emplace_back("NO_AIR", "1");
+    return get(photons[fournierForand][shaded], "water/shaft_photons.comp", defines);
+}
+
+const gl::Program* Shafts::State::marchProgram(bool fournierForand, bool bent, int lamps) {
+    Defines defines;
+    if (fournierForand) defines.emplace_back("FOURNIER_FORAND", "1");
+    if (bent) defines.emplace_back("PATHS", "1");
+    if (lamps > 0) defines.emplace_back("LAMPS", "1");
+    if (lamps > 1) defines.emplace_back("LAMP_SHADOWS", "1");
+    return get(march[fournierForand][bent][lamps], "water/shaft_march.comp", defines);
+}
+
+// Those that the usual scene needs; others are built when first asked for.
 Result<void> Shafts::State::makePrograms() {
-    const auto get = [&](const char* name, Defines defines) {
-        gl::ProgramDesc desc{{name}, std::move(defines), name};
-        for (const auto& define : desc.defines) desc.label += " " + define.first;
-        return device.programs().get(desc);
-    };
     for (int i = 0; i < 2; ++i) {
-        const Defines paths = i ? Defines{{"PATHS", "1"}} : Defines{};
-        SHOAL_TRY_ASSIGN(upsample[i], get("water/shaft_upsample.comp", paths));
-        SHOAL_TRY_ASSIGN(blur[i], get("water/shaft_blur.comp", {{"AXIS", std::to_string(i)}}));
-        for (int phase = 0; phase < 2; ++phase) {
-            Defines marchDefines = paths, trace = {{"NO_LAMPS", "1"}};
-            if (phase) marchDefines.emplace_back("FOURNIER_FORAND", "1"), trace.emplace_back("FOURNIER_FORAND", "1");
-            if (!i) trace.emplace_back("NO_WAVE_SHADOWS", "1"), trace.emplace_back("NO_AIR", "1");
-            SHOAL_TRY_ASSIGN(march[phase][i], get("water/shaft_march.comp", marchDefines));
-            SHOAL_TRY_ASSIGN(photons[phase][i], get("water/shaft_photons.comp", trace));
-        }
+        get(upsample[i], "water/shaft_upsample.comp", i ? Defines{{"PATHS", "1"}} : Defines{});
+        get(blur[i], "water/shaft_blur.comp", {{"AXIS", std::to_string(i)}});
+        photonProgram(false, i);
+        marchProgram(false, i, 0);
     }
+    if (failed) return internalError(problem);
     return {};
 }
 
@@ -136,7 +170,9 @@ void Shafts::render(const frame::Context& context, const ShaftParams& params, co
     if (!params.enabled || !scatters(body) || !lights.sun || slots == 0) return;
     SHOAL_ASSERT(body.gpuWaves);
     const gl::PassScope pass(context.timer, "shaft photons");
-    if (!s.reserveSlices(s.plan.side, slots * s.setup.slices)) {
+    const bool fournierForand = body.optics.phase == Optics::Phase::fournierForand;
+    const gl::Program* program = s.photonProgram(fournierForand, shadedAbove(body, *lights.sun) || views.airDrawn());
+    if (!program || !s.reserveSlices(s.plan.side, slots * s.setup.slices)) {
         for (Vec4& rim : s.plan.block.rims) rim.x = -1;
         return;
     }
@@ -150,10 +186,8 @@ void Shafts::render(const frame::Context& context, const ShaftParams& params, co
     views.bind();
     gl::bindImage(0, s.slices, GL_READ_WRITE);
     s.photonCount = std::int64_t(s.plan.cells) * s.plan.cells * slots;
-    const bool fournierForand = body.optics.phase == Optics::Phase::fournierForand;
-    const gl::Program& program = *s.photons[fournierForand][shadedAbove(body, *lights.sun) || views.airDrawn()];
-    program.set(0, 0);
-    program.dispatch(s.plan.cells, s.plan.cells, slots);
+    program->set(0, 0);
+    program->dispatch(s.plan.cells, s.plan.cells, slots);
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
 }
 
@@ -171,7 +205,10 @@ void Shafts::march(const frame::Context& context, const ShaftParams& params, con
     const int fullWidth = outputs.inscatter.width, fullHeight = outputs.inscatter.height;
     const int width = std::max(int(std::ceil(float(fullWidth) * scale)), 1),
               height = std::max(int(std::ceil(float(fullHeight) * scale)), 1);
-    if (!s.resizeTargets(width, height) || !s.reserveSlices(std::max(s.plan.side, 1), 1)) return;
+    const bool bent = bool(paths.path);
+    const gl::Program* program =
+        s.marchProgram(body.optics.phase == Optics::Phase::fournierForand, bent, lampsInWater(body, lights));
+    if (!program || !s.resizeTargets(width, height) || !s.reserveSlices(std::max(s.plan.side, 1), 1)) return;
 
     const double sample = double(context.sampleIndex);
     s.plan.block.march = {float(std::clamp((params.steps + 3) / 4, 1, 256)), 1 / scale,
@@ -183,7 +220,6 @@ void Shafts::march(const frame::Context& context, const ShaftParams& params, con
     s.water.bindUniform(SHOAL_BLOCK_WATER);
     bindInput(SHOAL_UNIT_SHAFT_SLICES, s.slices);
     bindInput(SHOAL_UNIT_PASS, viewDepth);
-    const bool bent = bool(paths.path);
     if (bent) {
         bindInput(SHOAL_UNIT_WATER_SURFACE, paths.surfaceDepth);
         bindInput(SHOAL_UNIT_WATER_NORMAL, paths.surfaceNormal);
@@ -192,7 +228,7 @@ void Shafts::march(const frame::Context& context, const ShaftParams& params, con
     {
         const gl::PassScope pass(context.timer, "shaft march");
         s.sources.bindImage(0, GL_WRITE_ONLY);
-        s.march[body.optics.phase == Optics::Phase::fournierForand][bent]->dispatch(width, height);
+        program->dispatch(width, height);
         glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
     }
     {
