@@ -1,8 +1,8 @@
 #version 450 core
 // The light of the slices gathered along each path, at reduced size. What is kept is a mean source: radiance over what
 // an even source of 1 would give on that path. It changes little where paths end at different distances, so that the
-// full picture gets its edges from its own paths. Variants: PATHS, FOURNIER_FORAND, LAMPS (there are some in the water),
-// LAMP_SHADOWS.
+// full picture gets its edges from its own paths. Variants: PATHS, FOURNIER_FORAND, LAMPS (there are some),
+// LAMP_SHADOWS (of some in the water).
 #include "water/shaft_slices.io.glsl"
 #include "water/shaft_sun.io.glsl"
 #include "water/shaft_path.io.glsl"
@@ -88,6 +88,7 @@ void main() {
     vec3 diffuse = veilingLight(depth0, path.direction, path.lengthM);
 #ifdef LAMPS
     diffuse += lampsInWater(path.start, path.direction, path.lengthM, jitter);
+    diffuse += lampsAbove(path.start, path.direction, path.lengthM, vec3(jitter, random.yz));
 #endif
     vec3 source = levelWaterBeam(depth0, path.direction) * min(ratio, vec3(1000.0)) + diffuse / max(even, vec3(1e-6));
     imageStore(sourceImage, low, vec4(source, seenLength(path.lengthM)));

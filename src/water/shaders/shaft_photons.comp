@@ -1,6 +1,7 @@
 #version 450 core
 // A photon for each texel (or part of one) of a slot's square, followed down through the slices until it meets something.
 // Its place, footprint and direction are exact at every depth (photon.io.glsl), so one tracing serves all slices.
+// Variants: those of photon.io.glsl (NO_LAMPS: slots of the sun), FOURNIER_FORAND.
 // Sources: [Igehy 1999]; [Hockney & Eastwood 1988] cloud in cell, for spreading a photon over four texels.
 #define SHAFT_SLICES_WRITTEN
 #include "water/shaft_slices.io.glsl"
@@ -56,8 +57,11 @@ void main() {
     // What is met at the very surface has no water before it.
     float deepest = hit < 0.0 ? 1e30 : level - p.start.y + hit;
     vec3 mean = waterBlock.sunRefracted.xyz;
-    float cosMean = -mean.y;
-    float levelFluence = waterBlock.toSun.y * waterBlock.sunRefracted.w / cosMean;
+#ifdef NO_LAMPS
+    float levelFluence = waterBlock.toSun.y * waterBlock.sunRefracted.w / -mean.y;
+#else
+    float levelFluence = 1.0;
+#endif
     float amount = p.flux * p.perTravel / max(levelFluence, 1e-6);
     vec3 direction = vec3(p.drift.x, -1.0, p.drift.y) / p.perTravel;
     float units = shaftBlock.units.x * fraction * fraction;
@@ -72,10 +76,14 @@ void main() {
         above = depth;
         float travel = p.start.y - level + depth;
         vec2 t = shaftTexelOf(photonPlace(p, slot, travel), i);
+        vec2 xzThere = p.start.xz + p.drift * travel;
+        vec3 there = vec3(xzThere.x, level - depth, xzThere.y);
+#ifndef NO_LAMPS
+        mean = normalize(there - lightSpace.slots[slot].source.xyz);
+#endif
         // What its way differs from the mean one by dims it; the march does the rest.
-        float more = waterBlock.beamAttenuation.w * (travel * p.perTravel - depth / cosMean);
-        vec2 place = p.start.xz + p.drift * travel;
-        float share = amount * exp(-more) * phaseRatio(vec3(place.x, level - depth, place.y), direction, mean);
+        float more = waterBlock.beamAttenuation.w * (travel * p.perTravel + depth / mean.y);
+        float share = amount * exp(-more) * phaseRatio(there, direction, mean);
         share = min(share, kMostLight) * units;
 
         vec4 j = photonJacobian(p, slot, travel) * fraction;

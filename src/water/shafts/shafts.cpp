@@ -28,18 +28,21 @@ void bindInput(int unit, const gl::TextureView& texture) {
     glBindSampler(GLuint(unit), 0);
 }
 
+// What photons are traced from.
+enum PhotonKind { kOpenSun, kShadedSun, kLamp };
+
 // Whether crests can shade the waves behind them: the sun stands lower than the steepest slope.
 bool shadedAbove(const Body& body, const light::Sun& sun) {
     const Vec3 toSun = normalize(sun.toSun);
     return toSun.y <= float(body.waves ? body.waves->bounds().slope : 0) * std::hypot(toSun.x, toSun.z);
 }
 
-// 0: there are none, 1: some, 2: some that cast shadows.
-int lampsInWater(const Body& body, const BodyLights& lights) {
-    int found = 0;
+// 0: there are none, 1: some, 2: some in the water that cast shadows.
+int lampsOf(const Body& body, const BodyLights& lights) {
+    int found = lights.punctual.empty() ? 0 : 1;
     for (const light::PunctualLight& lamp : lights.punctual)
-        if (lamp.position.y < body.params.level)
-            found = std::max(found, lamp.kind == light::PunctualLight::Kind::spot && lamp.castsShadow ? 2 : 1);
+        if (lamp.position.y < body.params.level && lamp.kind == light::PunctualLight::Kind::spot && lamp.castsShadow)
+            found = 2;
     return found;
 }
 
@@ -57,8 +60,9 @@ struct Shafts::State {
 
     gl::Device& device;
     ShaftSetup setup;
-    const gl::Program* photons[2][2] = {};   // [Fournier-Forand][waves may shade each other, or things above the water]
-    const gl::Program* march[2][2][3] = {};  // [Fournier-Forand][paths given][lamps in water: none, some, with shadows]
+    // [Fournier-Forand][the sun; the sun where waves or things above the water may shade it; a lamp]
+    const gl::Program* photons[2][3] = {};
+    const gl::Program* march[2][2][3] = {};  // [Fournier-Forand][paths given][lamps: none, some, some with shadows]
     const gl::Program* upsample[2] = {};     // [paths given]
     const gl::Program* blur[2] = {};         // [axis]
     gl::BlockBuffer<ShaftBlock> block;
@@ -72,7 +76,7 @@ struct Shafts::State {
     std::string problem;
 
     const gl::Program* get(const gl::Program*& kept, const char* name, const Defines& defines);
-    const gl::Program* photonProgram(bool fournierForand, bool shaded);
+    const gl::Program* photonProgram(bool fournierForand, int kind);
     const gl::Program* marchProgram(bool fournierForand, bool bent, int lamps);
     Result<void> makePrograms();
     bool reserveSlices(int side, int layers);
@@ -91,11 +95,12 @@ const gl::Program* Shafts::State::get(const gl::Program*& kept, const char* name
     return nullptr;
 }
 
-const gl::Program* Shafts::State::photonProgram(bool fournierForand, bool shaded) {
-    Defines defines = {{"NO_LAMPS", "1"}};
+const gl::Program* Shafts::State::photonProgram(bool fournierForand, int kind) {
+    Defines defines;
     if (fournierForand) defines.emplace_back("FOURNIER_FORAND", "1");
-    if (!shaded) defines.emplace_back("NO_WAVE_SHADOWS", "1"), defines.emplace_back("NO_AIR", "1");
-    return get(photons[fournierForand][shaded], "water/shaft_photons.comp", defines);
+    if (kind < kLamp) defines.emplace_back("NO_LAMPS", "1");
+    if (kind == kOpenSun) defines.emplace_back("NO_WAVE_SHADOWS", "1"), defines.emplace_back("NO_AIR", "1");
+    return get(photons[fournierForand][kind], "water/shaft_photons.comp", defines);
 }
 
 const gl::Program* Shafts::State::marchProgram(bool fournierForand, bool bent, int lamps) {
@@ -166,14 +171,18 @@ void Shafts::render(const frame::Context& context, const ShaftParams& params, co
     State& s = *state_;
     s.plan = makeShaftPlan(s.setup, params, body, views.slots(), context);
     s.photonCount = 0;
-    const int slots = s.plan.sunSlots;
-    if (!params.enabled || !scatters(body) || !lights.sun || slots == 0) return;
+    const int sunSlots = lights.sun ? s.plan.sunSlots : 0, lampSlots = s.plan.lampSlots;
+    if (!params.enabled || !scatters(body) || sunSlots + lampSlots == 0) return;
     SHOAL_ASSERT(body.gpuWaves);
     const gl::PassScope pass(context.timer, "shaft photons");
     const bool fournierForand = body.optics.phase == Optics::Phase::fournierForand;
-    const gl::Program* program = s.photonProgram(fournierForand, shadedAbove(body, *lights.sun) || views.airDrawn());
-    if (!program || !s.reserveSlices(s.plan.side, slots * s.setup.slices)) {
+    const bool shaded = sunSlots > 0 && (shadedAbove(body, *lights.sun) || views.airDrawn());
+    const gl::Program* fromSun = sunSlots ? s.photonProgram(fournierForand, shaded ? kShadedSun : kOpenSun) : nullptr;
+    const gl::Program* fromLamps = lampSlots ? s.photonProgram(fournierForand, kLamp) : nullptr;
+    const int used = lampSlots ? SHOAL_SUN_SHAFT_SLOTS + lampSlots : sunSlots;
+    if (s.failed || !s.reserveSlices(s.plan.side, used * s.setup.slices)) {
         for (Vec4& rim : s.plan.block.rims) rim.x = -1;
+        s.plan.block.grid.w = 0;
         return;
     }
     const GLuint nothing = 0;
@@ -185,9 +194,13 @@ void Shafts::render(const frame::Context& context, const ShaftParams& params, co
     body.gpuWaves->bind();
     views.bind();
     gl::bindImage(0, s.slices, GL_READ_WRITE);
-    s.photonCount = std::int64_t(s.plan.cells) * s.plan.cells * slots;
-    program->set(0, 0);
-    program->dispatch(s.plan.cells, s.plan.cells, slots);
+    s.photonCount = std::int64_t(s.plan.cells) * s.plan.cells * (sunSlots + lampSlots);
+    const auto trace = [&](const gl::Program& program, int first, int count) {
+        program.set(0, first);
+        program.dispatch(s.plan.cells, s.plan.cells, count);
+    };
+    if (fromSun) trace(*fromSun, 0, sunSlots);
+    if (fromLamps) trace(*fromLamps, SHOAL_SUN_SHAFT_SLOTS, lampSlots);
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
 }
 
@@ -195,7 +208,6 @@ void Shafts::march(const frame::Context& context, const ShaftParams& params, con
                    const LightViews& views, const WaterPaths& paths, gl::TextureView viewDepth,
                    const ShaftOutputs& outputs) {
     State& s = *state_;
-    (void)views;
     if (!params.enabled || !scatters(body)) {
         const float nothing[4] = {0, 0, 0, 0};
         glClearTexImage(outputs.inscatter.name, 0, GL_RGBA, GL_FLOAT, nothing);
@@ -207,7 +219,7 @@ void Shafts::march(const frame::Context& context, const ShaftParams& params, con
               height = std::max(int(std::ceil(float(fullHeight) * scale)), 1);
     const bool bent = bool(paths.path);
     const gl::Program* program =
-        s.marchProgram(body.optics.phase == Optics::Phase::fournierForand, bent, lampsInWater(body, lights));
+        s.marchProgram(body.optics.phase == Optics::Phase::fournierForand, bent, lampsOf(body, lights));
     if (!program || !s.resizeTargets(width, height) || !s.reserveSlices(std::max(s.plan.side, 1), 1)) return;
 
     const double sample = double(context.sampleIndex);
@@ -219,6 +231,7 @@ void Shafts::march(const frame::Context& context, const ShaftParams& params, con
     s.water.write(makeWaterBlock(body, lights));
     s.water.bindUniform(SHOAL_BLOCK_WATER);
     bindInput(SHOAL_UNIT_SHAFT_SLICES, s.slices);
+    views.bind();
     bindInput(SHOAL_UNIT_PASS, viewDepth);
     if (bent) {
         bindInput(SHOAL_UNIT_WATER_SURFACE, paths.surfaceDepth);
