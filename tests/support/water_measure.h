@@ -106,9 +106,9 @@ public:
     // texel.
     std::vector<float> map(int slot = 0, int layer = 0) const {
         const gl::TextureView maps = photons_.maps();
-        std::vector<float> all(std::size_t(maps.width) * std::size_t(maps.height));
+        std::vector<float> all(std::size_t(maps.width) * std::size_t(maps.width));
         glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
-        glGetTextureSubImage(maps.name, 0, 0, 0, 2 * slot + layer, maps.width, maps.height, 1, GL_RED, GL_FLOAT,
+        glGetTextureSubImage(maps.name, 0, 0, 0, 2 * slot + layer, maps.width, maps.width, 1, GL_RED, GL_FLOAT,
                              GLsizei(all.size() * 4), all.data());
         return all;
     }

@@ -56,6 +56,9 @@ constexpr int kLargestFineMap = 1024;  // texels a side of maps that may be depo
 constexpr double kSeenDisc = 0.6, kWideDisc = 2;
 constexpr double kReflectedShare = 0.25;
 
+// Texels in height of a map with its mips in a row above it.
+int shelved(int side) { return side + side / 2; }
+
 Result<void> makePrograms(gl::Device& device, State& s) {
     const std::vector<std::pair<std::string, std::string>> variants[State::kVariants] = {
         {{"NO_LAMPS", ""}, {"NO_WAVE_SHADOWS", ""}, {"NO_AIR", ""}},
@@ -178,10 +181,8 @@ private:
 void addMips(State& s, LayerPasses& passes, const gl::Texture& texture, int firstLayer, int side, int levels) {
     for (int level = 1; level < levels; ++level)
         passes.add(*s.mips, side >> level, [&s, &texture, firstLayer, side, level] {
-            gl::bindImage(0, texture, GL_READ_ONLY, level - 1);
-            gl::bindImage(1, texture, GL_WRITE_ONLY, level);
-            s.mips->set(0, firstLayer);
-            s.mips->set(1, side >> level);
+            gl::bindImage(0, texture, GL_READ_WRITE);
+            glProgramUniform4i(s.mips->name(), 0, firstLayer, side, side >> level, 0);
         });
 }
 
@@ -195,9 +196,8 @@ void resolveSlot(State& s, const frame::Context& context, int index, double disc
     const bool blurs = disc >= kSeenDisc;
     // The second layer is dark unless a photon met it.
     const float dark = 0;
-    for (int level = 0; level < s.mipLevels; ++level)
-        glClearTexSubImage(s.maps.name(), level, 0, 0, 2 * index + 1, resolution >> level, resolution >> level, 1,
-                           GL_RED, GL_FLOAT, &dark);
+    glClearTexSubImage(s.maps.name(), 0, 0, 0, 2 * index + 1, resolution, shelved(resolution), 1, GL_RED, GL_FLOAT,
+                       &dark);
     LayerPasses passes(s, side);
     passes.add(*s.resolve, side, [&] {
         gl::bindImage(0, blurs ? s.sharp : s.maps, GL_WRITE_ONLY);
@@ -264,17 +264,14 @@ Result<Photons> Photons::create(gl::Device& device, const PhotonSetup& setup) {
     gl::TextureDesc desc;
     desc.target = GL_TEXTURE_2D_ARRAY;
     desc.format = GL_R32F;
-    desc.width = desc.height = setup.resolution;
+    desc.width = setup.resolution, desc.height = shelved(setup.resolution);
     desc.layers = 2 * setup.maxSlots;
-    desc.levels = s.mipLevels;
-    desc.minFilter = GL_NEAREST_MIPMAP_NEAREST;
     desc.label = "caustic maps";
     s.maps = gl::Texture::create(device, desc);
     s.mostFine = setup.resolution <= kLargestFineMap ? 2 : 1;
     const std::size_t side = std::size_t(setup.resolution) * std::size_t(s.mostFine);
-    desc.width = desc.height = int(side);
+    desc.width = int(side), desc.height = shelved(int(side));
     desc.layers = 2;
-    desc.levels = kSharpLevels;
     desc.label = "caustics before blur";
     s.sharp = gl::Texture::create(device, desc);
     s.deposits = gl::Buffer::create(device, (2 * side * side + 1) * sizeof(std::uint32_t), "photon deposits");
@@ -341,7 +338,7 @@ void Photons::resolve(const frame::Context& context, const Body& body, const Bod
     s.tiles.bindStorage(SHOAL_STORAGE_WATER);
     all.set(0, outputs.ambient ? 1 : 0);
     all.dispatch(context.view.width, context.view.height);
-    if (views.airDrawn()) {
+    {
         glMemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
         listed.set(0, outputs.ambient ? 1 : 0);
         listed.use();
@@ -359,10 +356,7 @@ frame::Stats Photons::stats() const {
     frame::Stats stats;
     stats.bytes = std::int64_t(s.deposits.bytes());
     for (const gl::Texture* texture : {&s.maps, &s.sharp})
-        for (int level = 0; level < texture->view().levels; ++level) {
-            const std::int64_t side = texture->width() >> level;
-            stats.bytes += side * side * texture->view().layers * std::int64_t(sizeof(float));
-        }
+        stats.bytes += std::int64_t(sizeof(float)) * texture->width() * texture->height() * texture->view().layers;
     stats.counts = {{"photons", s.photonCount}};
     return stats;
 }
