@@ -88,10 +88,11 @@ public:
         views_.prepare(context_, params, body_, lights_, scene);
         for (const frame::NeededView& view : views_.neededViews()) clearTo(view, heightIn(view));
 
-        const float depth = kEyeY + setup.depth;
+        // The eye sees the floor; where there is a ceiling, that one from above, as if it were lit from below.
+        const float depth = setup.ceiling > 0 ? kEyeY - setup.ceiling : kEyeY + setup.depth;
         viewDepth_.clear(GL_RED, GL_FLOAT, &depth);
-        const std::uint16_t up[2] = {32768, 65535};
-        normal_.clear(GL_RG, GL_UNSIGNED_SHORT, up);
+        const std::uint16_t up[2] = {32768, 65535}, down[2] = {32768, 0};
+        normal_.clear(GL_RG, GL_UNSIGNED_SHORT, setup.ceiling > 0 ? down : up);
     }
 
     // Deposits (and resolves) the photons.
