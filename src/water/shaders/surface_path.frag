@@ -16,19 +16,23 @@ const float kBlindGuess = 2.0;      // and where nothing lies so near behind the
 const float kLeastDepth = 0.02;     // metres that things may stand above the surface's point and count as wet
 const float kLargestBend = 0.02;    // of the inverse depth, over which neighbouring texels are not one plane
 const float kSoftBorder = 0.03;     // of the picture's size
+const float kLargestStep = 0.2;     // of the same
 const float kCloseEnough = 1e-3;    // of the path's length
 const float kHitTolerance = 0.02;   // of the path's length: how far off the opaque surface a bent ray may end
 
-// View depth of the opaque surfaces between texels: its inverse is even over a plane on the screen; where the four
-// texels lie on no plane, that of the nearest.
-float opaqueDepthAt(vec2 pixel) {
+// View depth of the opaque surfaces between texels (x): its inverse is even over a plane on the screen; where the four
+// texels lie on no plane (y: 0), that of the nearest.
+vec2 opaqueDepthAt(vec2 pixel) {
     vec2 corner = floor(pixel - 0.5), f = pixel - 0.5 - corner;
     vec4 z = textureGather(opaqueDepth, (corner + 1.0) * size.zw, 0);   // (0, 1), (1, 1), (1, 0), (0, 0)
     vec4 inverse = mix(vec4(1.0 / kFarthestWater), 1.0 / z, greaterThan(z, vec4(0.0)));
     vec2 row = mix(inverse.wx, inverse.zy, f.x);
     float nearest = f.y < 0.5 ? (f.x < 0.5 ? inverse.w : inverse.z) : (f.x < 0.5 ? inverse.x : inverse.y);
     float bend = abs(inverse.x + inverse.z - inverse.y - inverse.w);
-    return 1.0 / (bend < kLargestBend * nearest ? mix(row.x, row.y, f.y) : nearest);
+    vec2 least = min(inverse.xy, inverse.zw), most = max(inverse.xy, inverse.zw);
+    bool plane = bend < kLargestBend * nearest &&
+                 max(most.x, most.y) - min(least.x, least.y) < kLargestStep * nearest;
+    return vec2(1.0 / (plane ? mix(row.x, row.y, f.y) : nearest), plane ? 1.0 : 0.0);
 }
 
 // Mirrored at the picture's borders: what lies beyond them is not known, and looks like what lies before.
@@ -63,9 +67,9 @@ vec4 followBent(vec3 start, vec3 direction, vec2 ownPixel, vec3 straight, bool a
         vec4 clip = clip0 + clip1 * t;
         vec2 pixel = (clip.xy / max(clip.w, 1e-4) * 0.5 + 0.5) * size.xy;
         vec2 inside = clamp(pixel, vec2(0.5), size.xy - 0.5);
-        float opaque = opaqueDepthAt(inside);
+        vec2 opaque = opaqueDepthAt(inside);
         PixelRay ray = rayOfPixel(inside);
-        vec3 hit = ray.origin + ray.step * opaque;
+        vec3 hit = ray.origin + ray.step * opaque.x;
         if (inside != pixel) {
             // Nothing is known there: as if what is seen at the border went on level.
             t = toHeightOf(hit, start, direction);
@@ -74,10 +78,10 @@ vec4 followBent(vec3 start, vec3 direction, vec2 ownPixel, vec3 straight, bool a
             bestMiss = 0.0;
             break;
         }
-        float miss = distance(hit, start + direction * t), g = opaque - (depth0 + depth1 * t);
+        float miss = distance(hit, start + direction * t), g = opaque.x - (depth0 + depth1 * t);
         // What is nearer than the surface or above it is not in the water.
         bool wet = dot(hit - start, direction) > 0.0 && hit.y < start.y + kLeastDepth;
-        bool better = wet && miss < bestMiss;
+        bool better = wet && opaque.y > 0.0 && miss < bestMiss;   // at an edge the picture mixes near and far
         best = better ? vec4(pixel, distance(hit, start), 0.0) : best;
         bestMiss = better ? miss : bestMiss;
         if (miss < kCloseEnough * t) break;
