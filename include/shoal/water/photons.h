@@ -59,7 +59,8 @@ public:
                  const ReceiverInputs& inputs, const IrradianceOutputs& outputs);
 
     // R32F array, two layers a slot (2 slot + layer): irradiance on a level plane in units of the light's irradiance on
-    // a plane facing it (lamps: of 1 W/m2), dimmed by the channel that is dimmed least.
+    // a plane facing it (lamps: of 1 W/m2), dimmed by the channel that is dimmed least. A map is as
+    // wide as high; above it (rows from its width on) lie its mips, from left to right.
     gl::TextureView maps() const;
     frame::Stats stats() const;
 

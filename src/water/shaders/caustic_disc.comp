@@ -40,6 +40,8 @@ void main() {
     vec2 extent = vec2(sqrt(qy), sqrt(qx)) / sqrt(q.x * q.y) + 0.5 + apart;
     ivec2 first = ivec2(floor(centre - extent + 0.5)), last = ivec2(floor(centre + extent - 0.5));
     int side = (place.x * place.y) >> level;
+    int whole = place.x * place.y;
+    ivec2 shelf = level > 0 ? ivec2(whole - 2 * side, whole) : ivec2(0);   // caustic_mips.comp
     float sum = 0.0, weights = 0.0;
     for (int y = first.y; y <= last.y; ++y) {
         vec4 dy = vec4(float(y) + 0.5 - centre.y) + lines;
@@ -54,7 +56,7 @@ void main() {
             vec4 w = clamp(halfRun - left + 0.5, vec4(0.0), min(2.0 * halfRun, vec4(1.0))) +
                      clamp(halfRun - right + 0.5, vec4(0.0), min(2.0 * halfRun, vec4(1.0)));
             float weight = dot(w, reached);
-            sum += weight * texelFetch(sharpMap, ivec3(clamp(x, 0, side - 1), row, id.z), level).x;
+            sum += weight * texelFetch(sharpMap, ivec3(shelf + ivec2(clamp(x, 0, side - 1), row), id.z), 0).x;
             weights += weight;
         }
     }

@@ -10,9 +10,10 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(location = 0) uniform int firstSlot;
+layout(location = 0) uniform int i;      // slot of the block
+layout(location = 1) uniform int slot;   // the same among LightViews::slots()
 
-const int kMostParts = 3;   // of a photon's footprint along an axis
+const float kMostParts = 2.0;   // of a photon's footprint along an axis
 // Times what level water lets through: no photon counts for more. All photons of a slot in one texel fill 32 bits.
 const float kMostLight = 16.0;
 
@@ -44,9 +45,7 @@ float phaseRatio(vec3 position, vec3 direction, vec3 meanDirection) {
 void main() {
     int perTexel = int(shaftBlock.grid.z), side = int(shaftBlock.grid.x) * perTexel;
     ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
-    int i = firstSlot + int(gl_GlobalInvocationID.z);
     if (any(greaterThanEqual(cell, ivec2(side)))) return;
-    int slot = int(shaftBlock.slots[i].w);
     float fraction = 1.0 / float(perTexel);
     vec2 xz = shaftBlock.slots[i].xy + (vec2(cell) + 0.5) * (fraction / shaftBlock.slots[i].z);
 
@@ -86,13 +85,17 @@ void main() {
         float share = amount * exp(-more) * phaseRatio(there, direction, mean);
         share = min(share, kMostLight) * units;
 
-        vec4 j = photonJacobian(p, slot, travel) * fraction;
-        ivec2 parts = clamp(ivec2(ceil(vec2(length(j.xy), length(j.zw)) - 0.35)), ivec2(1), ivec2(kMostParts));
-        int count = parts.x * parts.y;
+        // Parts lie a texel and a third apart, where that takes few: what is spread wider is dim and shows few gaps.
+        vec4 j = photonJacobian(p, slot, travel) * fraction, extent = abs(j);
+        vec2 parts = clamp(ceil(max(extent.xz, extent.yw) - 0.35), vec2(1.0), vec2(kMostParts));
+        vec2 apart = 1.0 / parts;
+        float count = parts.x * parts.y;
+        share *= apart.x * apart.y;
         int target = i * int(shaftBlock.grid.y) + k;
-        for (int n = 0; n < count; ++n) {
-            vec2 part = (vec2(n % parts.x, n / parts.x) + 0.5) / vec2(parts) - 0.5;
-            deposit(target, t + j.xy * part.x + j.zw * part.y, share / float(count), rounding);
+        for (float n = 0.5; n < count; n += 1.0) {
+            float row = floor(n * apart.x);
+            vec2 part = vec2(n - row * parts.x, row + 0.5) * apart - 0.5;
+            deposit(target, t + j.xy * part.x + j.zw * part.y, share, rounding);
         }
     }
 }

@@ -196,8 +196,11 @@ void Shafts::render(const frame::Context& context, const ShaftParams& params, co
     gl::bindImage(0, s.slices, GL_READ_WRITE);
     s.photonCount = std::int64_t(s.plan.cells) * s.plan.cells * (sunSlots + lampSlots);
     const auto trace = [&](const gl::Program& program, int first, int count) {
-        program.set(0, first);
-        program.dispatch(s.plan.cells, s.plan.cells, count);
+        for (int i = first; i < first + count; ++i) {
+            program.set(0, i);
+            program.set(1, int(s.plan.block.slots[i].w));
+            program.dispatch(s.plan.cells, s.plan.cells);
+        }
     };
     if (fromSun) trace(*fromSun, 0, sunSlots);
     if (fromLamps) trace(*fromLamps, SHOAL_SUN_SHAFT_SLOTS, lampSlots);
