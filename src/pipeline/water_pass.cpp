@@ -140,6 +140,7 @@ void WaterPass::draw(const frame::Context& context, const WaterScene& scene, con
     const water::BodyLights lights = bodyLights(scene);
     const frame::GBuffer& g = targets.gbuffer();
     const bool scatters = paper_ || water_.scatters(params_);
+    scene.shadows.bind();  // of spots in the water
     water_.scatter(context, params_, lights, g.viewDepth, g.depth, paper_ ? gl::TextureView() : inscatter_.view());
     {
         const gl::PassScope pass(context.timer, "copy opaque");
@@ -148,9 +149,9 @@ void WaterPass::draw(const frame::Context& context, const WaterScene& scene, con
     targets.forward().bind();
     scene.lighting.bind();
     scene.shadows.bind();
-    water_.surface().compose(context, params_.surface, water_.body(), lights,
-                             {targets.opaqueCopy(), g.viewDepth, scatters ? inscatter_.view() : gl::TextureView(),
-                              mirrors_});
+    water_.surface().compose(
+        context, params_.surface, water_.body(), lights,
+        {targets.opaqueCopy(), g.viewDepth, scatters ? inscatter_.view() : gl::TextureView(), mirrors_});
 }
 
 }  // namespace shoal::pipeline

@@ -7,6 +7,12 @@
 
 namespace shoal::water {
 
+namespace {
+
+constexpr std::size_t kFirstLamps = 16;  // room made at creation; more grow it
+
+}  // namespace
+
 struct Water::State {
     gl::Device& device;
     BodyParams bodyParams;
@@ -17,8 +23,23 @@ struct Water::State {
     Photons photons;
     Shafts shafts;
     Surface surface;
-    gl::BlockBuffer<frame::LightBlock> eyeBlock;  // pixel rays, where no frame::Lighting has bound them
+    // Pixel rays and lamps as frame::Lighting binds them: a host need not have one.
+    gl::BlockBuffer<frame::LightBlock> lightBlock;
+    gl::Buffer lamps;
+    std::vector<frame::LocalLight> lampScratch;
+
+    void bindLights(const frame::Context& context, const BodyLights& lights);
 };
+
+void Water::State::bindLights(const frame::Context& context, const BodyLights& given) {
+    lightBlock.write(frame::makeLightBlock(context, {}, {given.sun, given.punctual, {}}, {}));
+    lightBlock.bindUniform(SHOAL_BLOCK_LIGHT);
+    frame::makeLocalLights(given.punctual, lampScratch);
+    const std::size_t bytes = lampScratch.size() * sizeof(frame::LocalLight);
+    if (bytes > lamps.bytes()) lamps = gl::Buffer::create(device, 2 * bytes, "water lamps");
+    if (bytes > 0 && lamps) lamps.writeAll(std::span<const frame::LocalLight>(lampScratch));
+    lamps.bindStorage(SHOAL_STORAGE_LIGHTS);
+}
 
 Water::Water(std::unique_ptr<State> state) : state_(std::move(state)) {}
 Water::Water(Water&&) noexcept = default;
@@ -36,10 +57,21 @@ Result<Water> Water::create(gl::Device& device, WaterSetup setup) {
     SHOAL_TRY_ASSIGN(Shafts shafts, Shafts::create(device, setup.shafts));
     SHOAL_TRY_ASSIGN(Surface surface, Surface::create(device));
     SHOAL_TRY(gpuWaves.update(waves));
-    auto eyeBlock = gl::BlockBuffer<frame::LightBlock>::create(device, "water eye");
-    return Water(std::unique_ptr<State>(new State{device, setup.body, optics, std::move(waves), std::move(gpuWaves),
-                                                  std::move(views), std::move(photons), std::move(shafts),
-                                                  std::move(surface), std::move(eyeBlock)}));
+    auto lightBlock = gl::BlockBuffer<frame::LightBlock>::create(device, "water lights");
+    gl::Buffer lamps = gl::Buffer::create(device, kFirstLamps * sizeof(frame::LocalLight), "water lamps");
+    if (!lamps) return internalError("no memory for the lamps of water");
+    return Water(std::unique_ptr<State>(new State{device,
+                                                  setup.body,
+                                                  optics,
+                                                  std::move(waves),
+                                                  std::move(gpuWaves),
+                                                  std::move(views),
+                                                  std::move(photons),
+                                                  std::move(shafts),
+                                                  std::move(surface),
+                                                  std::move(lightBlock),
+                                                  std::move(lamps),
+                                                  {}}));
 }
 
 Body Water::body() const {
@@ -82,8 +114,7 @@ void Water::light(const frame::Context& context, const BodyLights& lights, const
 void Water::scatter(const frame::Context& context, const WaterParams& params, const BodyLights& lights,
                     gl::TextureView viewDepth, gl::TextureView depth, gl::TextureView inscatter) {
     State& s = *state_;
-    s.eyeBlock.write(frame::makeLightBlock(context, {}, {}, {}));
-    s.eyeBlock.bindUniform(SHOAL_BLOCK_LIGHT);
+    s.bindLights(context, lights);
     s.surface.trace(context, params.surface, body(), viewDepth, depth);
     if (inscatter && scatters(params))
         s.shafts.march(context, params.shafts, body(), lights, s.views, s.surface.paths(), viewDepth, {inscatter});

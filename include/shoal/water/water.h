@@ -60,7 +60,8 @@ public:
     void light(const frame::Context& context, const BodyLights& lights, const ReceiverInputs& receivers,
                const IrradianceOutputs& outputs);
     // Finds the water's surface and every pixel's way through the water (surface().paths()), and fills `inscatter`
-    // (RGBA16F, empty: paths only) with what is scattered towards the eye on it.
+    // (RGBA16F, empty: paths only) with what is scattered towards the eye on it. Spots in the water with castsShadow
+    // need the frame::Shadows that was prepared with the same lamps to be bound.
     void scatter(const frame::Context& context, const WaterParams& params, const BodyLights& lights,
                  gl::TextureView viewDepth, gl::TextureView depth, gl::TextureView inscatter);
 
