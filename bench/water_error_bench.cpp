@@ -58,8 +58,7 @@ struct Patch {
     Image exact;
 };
 Result<Patch> patchOf(MethodPair& pair) {
-    SHOAL_TRY_ASSIGN(auto spec, pipeline::readWater(pair.pipeline(Method::shoal).scene()));
-    SHOAL_TRY_ASSIGN(water::WaveField waves, water::WaveField::create(spec->setup.waves, spec->setup.components));
+    SHOAL_TRY_ASSIGN(water::WaveField waves, wavesOf(pair.pipeline(Method::shoal).scene()));
     const water::FloorBins bins{{-2, -2}, {2, 2}, kSide, kSide, true};
     water::FloorResult floor =
         water::traceFloor(waves, water::kWaterIndex, 0, {0, 1, 0}, 0, 2, bins, kReferenceRays, 1);

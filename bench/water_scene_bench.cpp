@@ -32,9 +32,9 @@ Vec3 pointAt(const light::View& view, int x, int y, float depth) {
 Result<Image> traced(WaterStage& stage) {
     const scene::Scene& scene = stage.pipeline().scene();
     const scene::Content& content = stage.pipeline().content();
-    SHOAL_TRY_ASSIGN(auto spec, pipeline::readWater(scene));
-    SHOAL_TRY_ASSIGN(water::WaveField waves, water::WaveField::create(spec->setup.waves, spec->setup.components));
-    waves.setTime(double(scene.render.time));
+    SHOAL_TRY_ASSIGN(const water::WaveField waves, wavesOf(scene));
+    SHOAL_TRY_ASSIGN(const std::optional<pipeline::WaterSpec> spec, pipeline::readWater(scene));
+    if (!spec) return internalError("water_ruin has no water");
     water::Body body;
     body.params = spec->setup.body;
     SHOAL_TRY_ASSIGN(body.optics, water::resolveOptics(spec->setup.optics));

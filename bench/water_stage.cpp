@@ -55,6 +55,15 @@ Result<Image> WaterStage::draw(const std::string& aov, const light::Camera& came
     return image;
 }
 
+Result<water::WaveField> wavesOf(const scene::Scene& scene) {
+    SHOAL_TRY_ASSIGN(std::optional<pipeline::WaterSpec> spec, pipeline::readWater(scene));
+    if (!spec) return badInput(scene.file.string() + ": found no [water], expected a scene with water");
+    SHOAL_TRY_ASSIGN(water::WaveField waves, water::WaveField::create(spec->setup.waves, spec->setup.components,
+                                                                      std::move(spec->setup.heightmaps)));
+    waves.setTime(double(scene.render.time));
+    return waves;
+}
+
 std::string words(double x, double y, double z) {
     char text[96];
     std::snprintf(text, sizeof text, "[%.9g, %.9g, %.9g]", x, y, z);

@@ -8,6 +8,7 @@
 #include <shoal/core/image.h>
 #include <shoal/gl/device.h>
 #include <shoal/pipeline/pipeline.h>
+#include <shoal/pipeline/water.h>
 
 #include "bench/harness.h"
 
@@ -36,6 +37,9 @@ private:
     std::unique_ptr<pipeline::Pipeline> pipeline_;
     pipeline::FrameRequest request_;
 };
+
+// The wave field that a scene's [water] asks for, at the scene's time.
+Result<water::WaveField> wavesOf(const scene::Scene& scene);
 
 // "[1, 2, 3]" for an override.
 std::string words(double x, double y, double z);

@@ -175,15 +175,10 @@ double rmse(const Image& a, const Image& b) {
     return std::sqrt(sum / count) / (mean / count);
 }
 
-Result<water::WaveField> wavesOf(WaterStage& stage) {
-    SHOAL_TRY_ASSIGN(auto spec, pipeline::readWater(stage.pipeline().scene()));
-    return water::WaveField::create(spec->setup.waves, spec->setup.components, std::move(spec->setup.heightmaps));
-}
-
 Result<std::vector<Row>> patch(const Settings& settings) {
     SHOAL_TRY_ASSIGN(WaterStage stage, WaterStage::create(settings));
     SHOAL_TRY(stage.load("water_patch"));
-    SHOAL_TRY_ASSIGN(const water::WaveField waves, wavesOf(stage));
+    SHOAL_TRY_ASSIGN(const water::WaveField waves, wavesOf(stage.pipeline().scene()));
     const water::FloorBins bins{{-2, -2}, {2, 2}, kSide, kSide, true};
     std::vector<Row> rows;
     for (const bool disc : {false, true}) {
@@ -205,7 +200,7 @@ Result<std::vector<Row>> patch(const Settings& settings) {
 Result<std::vector<Row>> energy(const Settings& settings) {
     SHOAL_TRY_ASSIGN(WaterStage stage, WaterStage::create(settings));
     SHOAL_TRY(stage.load("water_patch"));
-    SHOAL_TRY_ASSIGN(const water::WaveField waves, wavesOf(stage));
+    SHOAL_TRY_ASSIGN(const water::WaveField waves, wavesOf(stage.pipeline().scene()));
     const water::FloorResult exact =
         water::traceFloor(waves, water::kWaterIndex, 0, {0, 1, 0}, 0, 2, {{-2, -2}, {2, 2}, 64, 64, true}, 2048, 1);
     double worst = 0;
@@ -312,7 +307,7 @@ Result<std::vector<Row>> reflected(const Settings& settings) {
     SHOAL_TRY_ASSIGN(const Image image, stage.draw("caustics"));
     // The waves run along z; a period of 1 m is 128 rows. Flux thrown up by a metre of the level plane.
     const double sunX = 1 / std::sqrt(1.25), sunY = 0.5 / std::sqrt(1.25);
-    SHOAL_TRY_ASSIGN(const water::WaveField waves, wavesOf(stage));
+    SHOAL_TRY_ASSIGN(const water::WaveField waves, wavesOf(stage.pipeline().scene()));
     double exact = 0;
     constexpr int kPoints = 20000;
     for (int i = 0; i < kPoints; ++i) {

@@ -123,9 +123,9 @@ TEST(WaterEye, OnTheSurfaceSeesNumbers) {
     writeText(folder / "scene.toml", sceneWith("waves = { kind = \"flat\" }\n", ""));
     for (const char* y : {"0", "0.000001", "-0.000001", "0.02", "-0.02"}) {
         const std::string eye = std::string("camera.position=[2, ") + y + ", 3]";
-        const ProgramRun run =
-            runProgram({SHOAL_TOOL, "render", "scene.toml", "--quiet", "--device", "cpu", "--set", eye, "-o", "out.exr"},
-                       {.folder = folder.path(), .environment = {}});
+        const ProgramRun run = runProgram(
+            {SHOAL_TOOL, "render", "scene.toml", "--quiet", "--device", "cpu", "--set", eye, "-o", "out.exr"},
+            {.folder = folder.path(), .environment = {}});
         ASSERT_EQ(run.exitCode, 0) << run.describe();
         const auto image = io::readImage(folder / "out.exr");
         ASSERT_TRUE(image);
@@ -137,8 +137,8 @@ TEST(WaterEye, OnTheSurfaceSeesNumbers) {
 TEST(WaterEye, WithoutAnyGeometryThereIsAPicture) {
     const TestFolder folder;
     writeText(folder / "scene.toml", "[camera]\nposition = [0, 3, 6]\ntarget = [0, 0, 0]\n[water]\n" + kWaves);
-    const ProgramRun run = runProgram({SHOAL_TOOL, "render", "scene.toml", "--quiet", "--device", "cpu", "--size", "96x64",
-                                       "-o", "out.exr", "--aov", "all"},
+    const ProgramRun run = runProgram({SHOAL_TOOL, "render", "scene.toml", "--quiet", "--device", "cpu", "--size",
+                                       "96x64", "-o", "out.exr", "--aov", "all"},
                                       {.folder = folder.path(), .environment = {}});
     ASSERT_EQ(run.exitCode, 0) << run.describe();
 }
