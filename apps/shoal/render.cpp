@@ -88,7 +88,6 @@ Result<void> run(const RenderOptions& o) {
     SHOAL_TRY(pipeline->setScene(scene, std::move(content)));
 
     output.fps = scene.render.fps;
-    output.startTime = scene.render.time;
     output.transparent = o.transparent;
     output.jpegQuality = o.quality;
     output.posesFile = o.posesFile;
@@ -96,6 +95,8 @@ Result<void> run(const RenderOptions& o) {
         output.isStill = false;
         output.endFrame = std::max(1, int(std::lround(scene.render.duration * scene.render.fps)));
     }
+    // [render] time is a still's; a film shows the whole of a path.
+    output.startTime = output.isStill ? scene.render.time : float(o.time.value_or(0));
     std::optional<ProgressBar> bar;
     if (!output.isStill) {
         std::signal(SIGINT, askToStop);
