@@ -225,8 +225,8 @@ std::vector<BadInput> badScenes() {
          {"model.glb"}},
         {"NotBuiltYet",
          3,
-         [](const fs::path& folder) { return scene(folder, kGoodScene + "[water]\nlevel = 0\n"); },
-         {"scene.toml:6", "water"}},
+         [](const fs::path& folder) { return scene(folder, kGoodScene + "[crowd]\ncount = 3\n"); },
+         {"scene.toml:6", "crowd"}},
     };
 }
 

@@ -35,7 +35,7 @@ std::vector<Case> refused() {
         {"SumTooSteep",
          "waves = { kind = \"sum\", components = [ { amplitude = 9, wavelength = 1 } ] }\n",
          "",
-         {"amplitude"}},
+         {"slopes"}},
         {"NegativeAmplitude", "waves = { kind = \"turbulent\", amplitude = -1 }\n", "", {"amplitude", "-1"}},
         {"NegativeAbsorption", kWaves + "absorption = [0.1, -0.5, 0.1]\n", "", {"absorption", "-0.5"}},
         {"NegativeScattering", kWaves + "scattering = [-0.2, 0.1, 0.1]\n", "", {"scattering"}},
@@ -49,7 +49,7 @@ std::vector<Case> refused() {
         {"NoHeightmap", "waves = { kind = \"heightmap\" }\n", "", {"file"}},
         {"MissingHeightmap", "waves = { kind = \"heightmap\", file = \"absent.exr\" }\n", "", {"absent.exr"}},
         {"WrongHeightmapSize", "waves = { kind = \"heightmap\", file = \"odd.exr\" }\n", "", {"30"}},
-        {"NanInHeightmap", "waves = { kind = \"heightmap\", file = \"nan.exr\" }\n", "", {"NaN"}},
+        {"NanInHeightmap", "waves = { kind = \"heightmap\", file = \"nan.exr\" }\n", "", {"nan", "(5, 0)"}},
     };
 }
 
