@@ -26,7 +26,8 @@ struct Photons::State {
     gl::Device* device = nullptr;
     PhotonSetup setup;
     const gl::Program* deposit[kVariants] = {};
-    const gl::Program *resolve = nullptr, *disc = nullptr, *mips = nullptr, *layers = nullptr;
+    const gl::Program *resolve[2] = {}, *mips[2] = {};  // into maps, into the sharp map
+    const gl::Program *disc = nullptr, *layers = nullptr;
     // Looking up: all pixels, then listed tiles; the sun alone or lamps too; without normals, with.
     const gl::Program* lookup[2][2][2] = {};
     gl::Buffer tiles;
@@ -70,10 +71,15 @@ Result<void> makePrograms(gl::Device& device, State& s) {
         SHOAL_TRY_ASSIGN(s.deposit[i],
                          device.programs().get({{"water/photon_deposit.comp"}, variants[i], "photon deposit"}));
     }
-    SHOAL_TRY_ASSIGN(s.resolve, device.programs().get({{"water/caustic_resolve.comp"}, {}, "caustic resolve"}));
     SHOAL_TRY_ASSIGN(s.disc, device.programs().get({{"water/caustic_disc.comp"}, {}, "caustic disc"}));
     SHOAL_TRY_ASSIGN(s.layers, device.programs().get({{"water/caustic_layers.comp"}, {}, "caustic layers"}));
-    SHOAL_TRY_ASSIGN(s.mips, device.programs().get({{"water/caustic_mips.comp"}, {}, "caustic mips"}));
+    for (int sharp = 0; sharp < 2; ++sharp) {
+        std::vector<std::pair<std::string, std::string>> defines;
+        if (sharp) defines.push_back({"SHARP", ""});
+        SHOAL_TRY_ASSIGN(s.resolve[sharp],
+                         device.programs().get({{"water/caustic_resolve.comp"}, defines, "caustic resolve"}));
+        SHOAL_TRY_ASSIGN(s.mips[sharp], device.programs().get({{"water/caustic_mips.comp"}, defines, "caustic mips"}));
+    }
     const auto lookup = [&](std::vector<std::pair<std::string, std::string>> defines) {
         return device.programs().get({{"water/caustic_lookup.comp"}, std::move(defines), "caustic lookup"});
     };
@@ -134,7 +140,7 @@ void depositSlot(State& s, const frame::Context& context, int index, const Light
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     s.photonCount += std::int64_t(lattice.countX) * lattice.countZ;
 
-    s.resolve->set(1, float(1 / units));
+    for (const gl::Program* resolve : s.resolve) resolve->set(1, float(1 / units));
 }
 
 // The passes after the deposit, in order: each covers `side` texels a side of one layer or two.
@@ -158,8 +164,8 @@ public:
         state_.layers->dispatch(1);
         glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, state_.commands.name());
         for (std::size_t i = 0; i < count_; ++i) {
-            glMemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
-                            GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
+            glMemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
+                            GL_SHADER_STORAGE_BARRIER_BIT);
             passes_[i].bind();
             passes_[i].program->use();
             glDispatchComputeIndirect(GLintptr(3 * sizeof(std::uint32_t) * i));
@@ -178,11 +184,11 @@ private:
     std::array<std::uint32_t, 3 * kMostPasses> words_{};
 };
 
-void addMips(State& s, LayerPasses& passes, const gl::Texture& texture, int firstLayer, int side, int levels) {
+void addMips(State& s, LayerPasses& passes, bool sharp, int firstLayer, int side, int levels) {
     for (int level = 1; level < levels; ++level)
-        passes.add(*s.mips, side >> level, [&s, &texture, firstLayer, side, level] {
-            gl::bindImage(0, texture, GL_READ_WRITE);
-            glProgramUniform4i(s.mips->name(), 0, firstLayer, side, side >> level, 0);
+        passes.add(*s.mips[sharp], side >> level, [&s, sharp, firstLayer, side, level] {
+            gl::bindImage(0, sharp ? s.sharp : s.maps, GL_READ_WRITE);
+            glProgramUniform4i(s.mips[sharp]->name(), 0, firstLayer, side, side >> level, 0);
         });
 }
 
@@ -195,17 +201,17 @@ void resolveSlot(State& s, const frame::Context& context, int index, double disc
     const int resolution = s.setup.resolution, side = resolution * fine;
     const bool blurs = disc >= kSeenDisc;
     // The second layer is dark unless a photon met it.
-    const float dark = 0;
-    glClearTexSubImage(s.maps.name(), 0, 0, 0, 2 * index + 1, resolution, shelved(resolution), 1, GL_RED, GL_FLOAT,
-                       &dark);
+    const float dark[2] = {0, 0};
+    glClearTexSubImage(s.maps.name(), 0, 0, 0, 2 * index + 1, resolution, shelved(resolution), 1, GL_RG, GL_FLOAT,
+                       dark);
     LayerPasses passes(s, side);
-    passes.add(*s.resolve, side, [&] {
+    passes.add(*s.resolve[blurs], side, [&] {
         gl::bindImage(0, blurs ? s.sharp : s.maps, GL_WRITE_ONLY);
-        glProgramUniform2i(s.resolve->name(), 0, side, blurs ? 0 : 2 * index);
+        glProgramUniform2i(s.resolve[blurs]->name(), 0, side, index);
     });
     if (blurs) {
         const int levels = levelsFor(disc * fine);
-        addMips(s, passes, s.sharp, 0, side, levels);
+        addMips(s, passes, true, 0, side, levels);
         passes.add(*s.disc, resolution, [&s, resolution, fine, index, levels] {
             gl::bindTexture(0, s.sharp);
             glBindSampler(0, 0);
@@ -213,7 +219,7 @@ void resolveSlot(State& s, const frame::Context& context, int index, double disc
             glProgramUniform4i(s.disc->name(), 0, resolution, fine, index, levels);
         });
     }
-    addMips(s, passes, s.maps, 2 * index, resolution, s.mipLevels);
+    addMips(s, passes, false, 2 * index, resolution, s.mipLevels);
     passes.run();
 }
 
@@ -263,13 +269,14 @@ Result<Photons> Photons::create(gl::Device& device, const PhotonSetup& setup) {
     while (s.mipLevels < kMostMipLevels && setup.resolution % (1 << s.mipLevels) == 0) ++s.mipLevels;
     gl::TextureDesc desc;
     desc.target = GL_TEXTURE_2D_ARRAY;
-    desc.format = GL_R32F;
+    desc.format = GL_RG32F;
     desc.width = setup.resolution, desc.height = shelved(setup.resolution);
     desc.layers = 2 * setup.maxSlots;
     desc.label = "caustic maps";
     s.maps = gl::Texture::create(device, desc);
     s.mostFine = setup.resolution <= kLargestFineMap ? 2 : 1;
     const std::size_t side = std::size_t(setup.resolution) * std::size_t(s.mostFine);
+    desc.format = GL_R32F;
     desc.width = int(side), desc.height = shelved(int(side));
     desc.layers = 2;
     desc.label = "caustics before blur";
@@ -355,7 +362,7 @@ frame::Stats Photons::stats() const {
     const State& s = *state_;
     frame::Stats stats;
     stats.bytes = std::int64_t(s.deposits.bytes());
-    for (const gl::Texture* texture : {&s.maps, &s.sharp})
+    for (const gl::Texture* texture : {&s.maps, &s.sharp, &s.maps})  // two numbers a texel of the maps
         stats.bytes += std::int64_t(sizeof(float)) * texture->width() * texture->height() * texture->view().layers;
     stats.counts = {{"photons", s.photonCount}};
     return stats;

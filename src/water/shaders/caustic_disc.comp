@@ -7,7 +7,7 @@
 layout(local_size_x = 16, local_size_y = 8) in;
 
 layout(binding = 0) uniform sampler2DArray sharpMap;   // two layers
-layout(binding = 0, r32f) uniform writeonly image2DArray maps;
+layout(binding = 0, rg32f) uniform writeonly image2DArray maps;
 layout(location = 0) uniform ivec4 place;   // texels a side of the map; sharp texels a side of its texel; slot; levels
 
 const float kFewTexels = 1.5;   // radius from which the next coarser level is taken when it doubles
@@ -60,5 +60,6 @@ void main() {
             weights += weight;
         }
     }
-    imageStore(maps, ivec3(id.xy, 2 * slot + id.z), vec4(sum / max(weights, 1e-6)));
+    imageStore(maps, ivec3(id.xy, 2 * slot + id.z),
+               vec4(sum / max(weights, 1e-6), height < kNothingLit ? height : mean.w * 1e9, 0.0, 0.0));
 }

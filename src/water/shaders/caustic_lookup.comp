@@ -87,31 +87,29 @@ float mapValue(vec2 s, float height, float slope, float pixelM, int group, int s
     ivec2 corner = ivec2(low) - (ivec2(floor(place.xy * place.w + 0.5)) >> mip);
     vec4 w = vec4((1.0 - f.x) * (1.0 - f.y), f.x * (1.0 - f.y), (1.0 - f.x) * f.y, f.x * f.y);
     ivec2 a = clamp(corner, ivec2(0), ivec2((size >> mip) - 1)), b = clamp(corner + 1, ivec2(0), ivec2((size >> mip) - 1));
-    ivec2 ta = (a << mip) + ((1 << mip) >> 1), tb = (b << mip) + ((1 << mip) >> 1);
-    ta.y = int(rows.x) * ta.y + int(rows.y), tb.y = int(rows.x) * tb.y + int(rows.y);
     // Mips lie above the map itself (one level for the sampler: a level of each pixel's own costs llvmpipe dear).
     ivec2 shelf = mip > 0 ? ivec2(size - (2 * size >> mip), size) : ivec2(0);
     int layer = 2 * slot;
-    vec4 depth = vec4(texelFetch(litDepth, ivec3(ta, layer), 0).x, texelFetch(litDepth, ivec3(tb.x, ta.y, layer), 0).x,
-                      texelFetch(litDepth, ivec3(ta.x, tb.y, layer), 0).x, texelFetch(litDepth, ivec3(tb, layer), 0).x);
-    vec4 value = vec4(texelFetch(causticMaps, ivec3(shelf + ivec2(a), layer), 0).x,
-                      texelFetch(causticMaps, ivec3(shelf + ivec2(b.x, a.y), layer), 0).x,
-                      texelFetch(causticMaps, ivec3(shelf + ivec2(a.x, b.y), layer), 0).x,
-                      texelFetch(causticMaps, ivec3(shelf + ivec2(b), layer), 0).x);
-    // Heights as heightOfDepth gives them; in front of nothing is in front.
-    vec4 lit = (heights.x * depth + heights.y) / (heights.z * depth + heights.w);
-    bvec4 hidden = greaterThan(side * (vec4(height) - lit) * sign(depth), vec4(tolerance));
+    // Irradiance, and the height of what has it.
+    vec2 first = texelFetch(causticMaps, ivec3(shelf + a, layer), 0).xy;
+    vec2 second = texelFetch(causticMaps, ivec3(shelf + ivec2(b.x, a.y), layer), 0).xy;
+    vec2 third = texelFetch(causticMaps, ivec3(shelf + ivec2(a.x, b.y), layer), 0).xy;
+    vec2 fourth = texelFetch(causticMaps, ivec3(shelf + b, layer), 0).xy;
+    vec4 value = vec4(first.x, second.x, third.x, fourth.x), lit = vec4(first.y, second.y, third.y, fourth.y);
+    bvec4 hidden = greaterThan(side * (vec4(height) - lit), vec4(tolerance));
     float sum = dot(w, mix(value, vec4(0.0), hidden));
     // What the first layer hides may lie in the second.
     w = mix(vec4(0.0), w, hidden);
 #ifndef TILES
     behind = behind || any(greaterThan(w, vec4(0.0)));
 #else
+    ivec2 ta = (a << mip) + ((1 << mip) >> 1), tb = (b << mip) + ((1 << mip) >> 1);
+    ta.y = int(rows.x) * ta.y + int(rows.y), tb.y = int(rows.x) * tb.y + int(rows.y);
     for (int i = 0; i < 4 && (w.x > 0.0 || w.y > 0.0 || w.z > 0.0 || w.w > 0.0); ++i) {
         ivec2 at2 = ivec2((i & 1) == 0 ? ta.x : tb.x, i < 2 ? ta.y : tb.y);
         ivec2 map2 = ivec2((i & 1) == 0 ? a.x : b.x, i < 2 ? a.y : b.y);
-        float second = texelFetch(litDepth, ivec3(at2, layer + 1), 0).x;
-        bool farther = second > 0.0 && side * (height - heightOfDepth(second, heights)) > tolerance;
+        float depth = texelFetch(litDepth, ivec3(at2, layer + 1), 0).x;
+        bool farther = depth > 0.0 && side * (height - heightOfDepth(depth, heights)) > tolerance;
         sum += farther ? 0.0 : w[i] * texelFetch(causticMaps, ivec3(shelf + ivec2(map2), layer + 1), 0).x;
         if (i == 3) w = vec4(0.0);
     }
