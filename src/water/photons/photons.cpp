@@ -28,8 +28,9 @@ struct Photons::State {
     const gl::Program* deposit[kVariants] = {};
     const gl::Program *resolve[2] = {}, *mips[2] = {};  // into maps, into the sharp map
     const gl::Program *disc = nullptr, *layers = nullptr;
-    // Looking up: all pixels, then listed tiles; the sun alone or lamps too; without normals, with.
-    const gl::Program* lookup[2][2][2] = {};
+    // Looking up: all pixels, listed tiles deep down, those near the waterline; the sun alone or lamps too; without
+    // normals, with.
+    const gl::Program* lookup[3][2][2] = {};
     gl::Buffer tiles;
     gl::Buffer deposits;  // of one slot at a time
     gl::Buffer commands;  // work groups of the passes after the deposit, for one layer or two
@@ -56,6 +57,7 @@ constexpr int kLargestFineMap = 1024;  // texels a side of maps that may be depo
 // 1024^2 bins 2 %) where one map is all there is; where maps follow each other their steps are larger than that.
 constexpr double kSeenDisc = 0.6, kWideDisc = 2;
 constexpr double kReflectedShare = 0.25;
+constexpr float kBlends = 2;  // maps that a lookup blends at most
 
 // Texels in height of a map with its mips in a row above it.
 int shelved(int side) { return side + side / 2; }
@@ -83,9 +85,10 @@ Result<void> makePrograms(gl::Device& device, State& s) {
     const auto lookup = [&](std::vector<std::pair<std::string, std::string>> defines) {
         return device.programs().get({{"water/caustic_lookup.comp"}, std::move(defines), "caustic lookup"});
     };
-    for (int i = 0; i < 8; ++i) {
+    for (int i = 0; i < 12; ++i) {
         std::vector<std::pair<std::string, std::string>> defines;
-        if (i & 4) defines.push_back({"TILES", ""});
+        if (i >= 4) defines.push_back({"TILES", ""});
+        if (i >= 8) defines.push_back({"WATERLINE", ""});
         if (!(i & 2)) defines.push_back({"NO_LAMPS", ""});
         if (!(i & 1)) defines.push_back({"NO_NORMALS", ""});
         SHOAL_TRY_ASSIGN(s.lookup[i >> 2][i >> 1 & 1][i & 1], lookup(defines));
@@ -321,7 +324,7 @@ void Photons::resolve(const frame::Context& context, const Body& body, const Bod
     s.waterBlock.write(makeWaterBlock(body, lights));
     s.waterBlock.bindUniform(SHOAL_BLOCK_WATER);
     CausticBlock block = viewRays(context);
-    block.maps = {float(s.mipLevels), s.sunHasSlot ? 1.0f : 0.0f, 0, 0};
+    block.maps = {float(s.mipLevels), s.sunHasSlot ? 1.0f : 0.0f, kBlends, 0};
     s.causticBlock.write(block);
     s.causticBlock.bindUniform(SHOAL_BLOCK_WATER_PASS);
     body.gpuWaves->bind();
@@ -335,24 +338,25 @@ void Photons::resolve(const frame::Context& context, const Body& body, const Bod
     gl::bindImage(1, outputs.ambient ? outputs.ambient : outputs.direct, GL_WRITE_ONLY);
     const bool lamps =
         std::any_of(views.slots().begin(), views.slots().end(), [](const LightSlot& slot) { return slot.light >= 0; });
-    const gl::Program &all = *s.lookup[0][lamps][normals], &listed = *s.lookup[1][lamps][normals];
+    const gl::Program& all = *s.lookup[0][lamps][normals];
     const int tilesX = (context.view.width + all.localSize(0) - 1) / all.localSize(0);
     const int tilesY = (context.view.height + all.localSize(1) - 1) / all.localSize(1);
-    const std::size_t bytes = (4 + std::size_t(tilesX) * std::size_t(tilesY)) * sizeof(std::uint32_t);
+    const std::uint32_t none[8] = {0, 1, 1, 0, 0, 1, 1, 0};
+    const std::size_t bytes = sizeof none + std::size_t(tilesX) * std::size_t(tilesY) * sizeof(std::uint32_t);
     if (s.tiles.bytes() < bytes) s.tiles = gl::Buffer::create(*s.device, bytes, "caustic tiles");
-    const std::uint32_t none[4] = {0, 1, 1, 0};
     s.tiles.write(0, std::as_bytes(std::span(none)));
     s.tiles.bindStorage(SHOAL_STORAGE_WATER);
     all.set(0, outputs.ambient ? 1 : 0);
     all.dispatch(context.view.width, context.view.height);
-    {
-        glMemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+    glMemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, s.tiles.name());
+    for (const int list : {2, 1}) {
+        const gl::Program& listed = *s.lookup[list][lamps][normals];
         listed.set(0, outputs.ambient ? 1 : 0);
         listed.use();
-        glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, s.tiles.name());
-        glDispatchComputeIndirect(0);
-        glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
+        glDispatchComputeIndirect(list == 2 ? 0 : 4 * sizeof(std::uint32_t));
     }
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT);
 }
 

@@ -2,8 +2,9 @@
 // Light on each pixel's surface that came through the water's surface or was thrown up by it, from the caustic maps;
 // and the smooth light of sky and scattered sun under water. Variants: NO_NORMALS, normals are taken from the depth;
 // NO_LAMPS, the sun alone;
-// TILES, only the tiles listed before, exactly; without it all pixels as if no wave were high, the surface threw no light
-// up and nothing lay behind anything: tiles where that does not hold are listed.
+// TILES, only tiles listed before: with surfaces behind others, and with WATERLINE those near it too; without it all
+// pixels as if no wave were high, the surface threw no light up and nothing lay behind anything: tiles where that does
+// not hold are listed.
 // llvmpipe runs every branch and every loop at least once: hence two passes, and straight lines in the first.
 #include "water/caustic.shared.h"
 #include "frame/gbuffer.lib.glsl"
@@ -14,7 +15,7 @@
 layout(local_size_x = 16, local_size_y = 8) in;
 
 #ifndef TILES
-shared uint shallow;   // 1: the tile has surfaces behind others or near the waterline
+shared uint shallow, deeper;   // 1: the tile has surfaces near the waterline, behind others
 #endif
 
 layout(binding = 0) uniform sampler2D viewDepthTexture;
@@ -25,8 +26,9 @@ layout(binding = SHOAL_UNIT_CAUSTIC_MAPS) uniform sampler2DArray causticMaps;
 layout(binding = 0, rgba16f) uniform writeonly image2D directImage;
 layout(binding = 1, rgba16f) uniform writeonly image2D ambientImage;
 layout(location = 0) uniform bool ambientWanted;
-// Groups of a dispatch over the listed tiles, then the tiles: x, y in 16 bits each.
-layout(std430, binding = SHOAL_STORAGE_WATER) buffer Tiles { uint tileGroups[4]; uint tiles[]; };
+// Groups of two dispatches over listed tiles, then the tiles (x, y in 16 bits each): near the waterline from the start,
+// behind something from the end.
+layout(std430, binding = SHOAL_STORAGE_WATER) buffer Tiles { uint tileGroups[8]; uint tiles[]; };
 
 const float kSkyTransmittance = 0.934;   // of light from all of the sky through level water
 const float kFromBelow = 0.05;           // of downwelling light comes back from below
@@ -128,7 +130,7 @@ bool isUnderWater(vec3 p) {
     vec4 area = waterBlock.area;
     bool inArea = all(greaterThanEqual(p.xz, area.xy)) && all(lessThanEqual(p.xz, area.zw));
     float surface = 0.0;
-#ifdef TILES
+#ifdef WATERLINE
     if (abs(p.y - waterBlock.shape.x) <= waterBlock.shape.w) surface = waveSlopeAt(p.xz).x;
 #endif
     return inArea && p.y - waterBlock.shape.x < surface;
@@ -136,7 +138,11 @@ bool isUnderWater(vec3 p) {
 
 void main() {
 #ifdef TILES
+#ifdef WATERLINE
     uint tile = tiles[gl_WorkGroupID.x];
+#else
+    uint tile = tiles[tiles.length() - 1 - int(gl_WorkGroupID.x)];
+#endif
     ivec2 corner = ivec2(tile & 0xffffu, tile >> 16);
 #else
     ivec2 corner = ivec2(gl_WorkGroupID.xy);
@@ -160,7 +166,7 @@ void main() {
 
     vec3 direct = vec3(0.0);
     float sunLeft = causticBlock.maps.y == 0.0 ? 1.0 : 0.0;   // share of the sun that no map covers
-#if defined(NO_LAMPS) && !defined(TILES)
+#if defined(NO_LAMPS) && !defined(WATERLINE)
     // The sun's slots come first.
     if (causticBlock.maps.y != 0.0) {
         const int group = 0;
@@ -177,15 +183,16 @@ void main() {
         float left = there && reflected != under ? 1.0 : 0.0, value = 0.0;
         if (facing <= 0.0) left = 0.0;
         // The finest slot there, and the next one where that fades.
-        int from = group;
-        for (int k = 0; k < 2; ++k) {
+        // (A count that the compiler does not know: it would unroll the loop, and llvmpipe run both turns for all.)
+        int from = group, blends = int(causticBlock.maps.z);
+        for (int k = 0; k < blends; ++k) {
             int slot = -1;
             float share = 0.0;
             vec4 place = lightSpace.slots[group].place;
             for (int i = 0; i < kMostCascades; ++i) {
-                int other = min(group + i, end - 1);
+                int other = min(group + i, SHOAL_MAX_LIGHT_SLOTS - 1);
                 float part = min(insideSlot(s, lightSpace.slots[other].place, other + 1 < end), left);
-                bool taken = slot < 0 && other >= from && part > 0.0;
+                bool taken = slot < 0 && other >= from && other < end && part > 0.0;
                 slot = taken ? other : slot;
                 share = taken ? part : share;
                 place = taken ? lightSpace.slots[other].place : place;
@@ -212,12 +219,15 @@ void main() {
     if (under) direct += onLevel * beam * (sunLeft * sunFacing);
 #ifndef TILES
     // One thread asks for its tile.
-    if (gl_LocalInvocationIndex == 0u) shallow = 0u;
+    if (gl_LocalInvocationIndex == 0u) shallow = 0u, deeper = 0u;
     barrier();
-    if (behind || (there && p.y > waterBlock.shape.x - waterBlock.shape.w)) shallow = 1u;
+    if (there && p.y > waterBlock.shape.x - waterBlock.shape.w) shallow = 1u;
+    if (behind) deeper = 1u;
     barrier();
-    if (gl_LocalInvocationIndex == 0u && shallow != 0u)
-        tiles[atomicAdd(tileGroups[0], 1u)] = uint(corner.x) | uint(corner.y) << 16;
+    uint tile = uint(corner.x) | uint(corner.y) << 16;
+    if (gl_LocalInvocationIndex == 0u && shallow != 0u) tiles[atomicAdd(tileGroups[0], 1u)] = tile;
+    if (gl_LocalInvocationIndex == 0u && shallow == 0u && deeper != 0u)
+        tiles[tiles.length() - 1 - int(atomicAdd(tileGroups[4], 1u))] = tile;
 #endif
     if (!inside) return;
     imageStore(directImage, pixel, vec4(direct, under ? 1.0 : 0.0));
