@@ -59,7 +59,8 @@ constexpr int kLargestFineMap = 1024;  // texels a side of maps that may be depo
 // that they blur must be twice as fine (convolving 512^2 bins by .9 texels leaves 11 % error,
 // 1024^2 bins 2 %) where one map is all there is; where maps follow each other their steps are larger than that.
 constexpr double kSeenDisc = 0.6, kWideDisc = 2;
-constexpr double kReflectedShare = 0.25;
+constexpr double kReflectedShare = 0.125;
+constexpr float kFewTexels = 1.5f;
 constexpr float kBlends = 2;  // maps that a lookup blends at most
 
 // Texels in height of a map with its mips in a row above it.
@@ -210,7 +211,7 @@ int levelsFor(double radius) {
     return std::clamp(1 + int(std::floor(std::log2(std::max(radius, 1.0)))), 1, kSharpLevels);
 }
 
-void resolveSlot(State& s, const frame::Context& context, int index, double disc, int fine) {
+void resolveSlot(State& s, const frame::Context& context, int index, double disc, int fine, bool alone) {
     const gl::PassScope pass(context.timer, "caustic maps");
     const int resolution = s.setup.resolution, side = resolution * fine;
     const bool blurs = disc >= kSeenDisc;
@@ -222,10 +223,12 @@ void resolveSlot(State& s, const frame::Context& context, int index, double disc
     if (blurs) {
         const int levels = levelsFor(disc * fine);
         addMips(s, passes, true, 0, side, levels);
-        passes.add(*s.disc, resolution, [&s, resolution, fine, index, levels] {
+        passes.add(*s.disc, resolution, [&s, resolution, fine, index, levels, alone] {
             gl::bindTexture(0, s.sharp);
             glBindSampler(0, 0);
             gl::bindImage(0, s.maps, GL_WRITE_ONLY);
+            // Where maps follow each other, half as many texels a radius will do: a quarter of the time.
+            s.disc->set(1, alone ? kFewTexels : 0.5f * kFewTexels);
             glProgramUniform4i(s.disc->name(), 0, resolution, fine, index, levels);
         });
     }
@@ -330,7 +333,7 @@ void Photons::render(const frame::Context& context, const PhotonParams& params, 
         const int fine = alone && disc >= kSeenDisc && disc < kWideDisc ? s.mostFine : 1;
         depositSlot(s, context, i, slot, photonsOf(slot, slots, params.photons), variantOf(slot, body, lights, air),
                     slope, fine);
-        resolveSlot(s, context, i, disc, fine);
+        resolveSlot(s, context, i, disc, fine, alone);
     }
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
 }
