@@ -46,8 +46,8 @@ struct BoxPlace {
 };
 // The boxes of tests/scenes/water_boxes.toml.
 const BoxPlace kBoxes[] = {
-    {{0.5f, 0.8f, 0.7f}, {-1.2f, -2, 0.9f}, 0},   {{0.9f, 1.4f, 0.5f}, {0.4f, -2, -1.0f}, 17},
-    {{0.35f, 0.5f, 0.35f}, {1.3f, -2, 0.8f}, 34}, {{0.6f, 0.3f, 1.0f}, {-0.4f, -1.4f, 0.3f}, 51},
+    {{0.5f, 0.8f, 0.7f}, {-1.2f, -2, 0.9f}, 0},     {{0.9f, 1.4f, 0.5f}, {0.4f, -2, -1.0f}, 17},
+    {{0.35f, 0.5f, 0.35f}, {1.3f, -2, 0.8f}, 34},   {{0.6f, 0.3f, 1.0f}, {-0.4f, -1.4f, 0.3f}, 51},
     {{0.25f, 1.0f, 0.25f}, {-1.3f, -2, -1.2f}, 68}, {{0.3f, 0.9f, 0.3f}, {0.6f, -2, 0.2f}, 85},
 };
 Mat4 placeOf(const BoxPlace& b) { return translation(b.at) * rotation(axisAngle({0, 1, 0}, radians(b.turnDeg))); }

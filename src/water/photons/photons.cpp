@@ -15,6 +15,7 @@
 #include "frame/fullscreen.h"
 #include "water/bindings.shared.h"
 #include "water/caustic.shared.h"
+#include "water/light_space.shared.h"
 #include "water/photons/emission.h"
 #include "water/surface/water_block.h"
 
@@ -26,10 +27,14 @@ struct Photons::State {
     gl::Device* device = nullptr;
     PhotonSetup setup;
     const gl::Program* deposit[kVariants] = {};
-    const gl::Program *resolve = nullptr, *disc = nullptr, *mips = nullptr, *layers = nullptr;
-    // Looking up: all pixels, then listed tiles; the sun alone or lamps too; without normals, with.
-    const gl::Program* lookup[2][2][2] = {};
-    gl::Buffer tiles;
+    const gl::Program *resolve[2] = {}, *mips[2] = {};  // into maps, into the sharp map
+    const gl::Program *disc = nullptr, *layers = nullptr;
+    // Looking up: all pixels, listed tiles deep down, those near the waterline; the sun alone or lamps too; without
+    // normals, with.
+    const gl::Program* lookup[3][2][2] = {};
+    const gl::Program* lookupFew[2] = {};  // the first of them for one or two slots of the sun
+    const gl::Program* listTiles = nullptr;
+    gl::Buffer tiles, tileFlags, secondUsed;
     gl::Buffer deposits;  // of one slot at a time
     gl::Buffer commands;  // work groups of the passes after the deposit, for one layer or two
     gl::Texture sharp;    // its two layers before the light's disc blurs them
@@ -46,15 +51,18 @@ namespace {
 
 using State = Photons::State;
 
-constexpr int kMostMipLevels = 4;  // squares begin at multiples of 8 texels
+constexpr int kMipLevels = 3;  // squares begin at multiples of 8 texels
 constexpr int kSharpLevels = 6;
-constexpr std::size_t kMostPasses = 2 + kSharpLevels + kMostMipLevels;  // of one slot after the deposit
-constexpr int kLargestFineMap = 1024;  // texels a side of maps that may be deposited twice as fine
+constexpr std::size_t kMostPasses = 2 + kSharpLevels + kMipLevels;  // of one slot after the deposit
+// Texels a side of maps that may be deposited three times and twice as fine.
+constexpr int kFinestMap = 512, kLargestFineMap = 1024;
 // Radius of the light's disc at the slot's bottom, texels: smaller ones are not seen, and up to the second one the map
-// that they blur must be twice as fine (convolving 512^2 bins by .9 texels leaves 11 % error,
-// 1024^2 bins 2 %) where one map is all there is; where maps follow each other their steps are larger than that.
+// that they blur must be finer where the sun's one map is all there is (convolving 512^2 bins by .9 texels leaves 11 %
+// error, 1024^2 bins 2.5 %, 1536^2 bins 1.7 %). Where maps follow each other their steps are larger than that.
 constexpr double kSeenDisc = 0.6, kWideDisc = 2;
-constexpr double kReflectedShare = 0.25;
+constexpr double kReflectedShare = 0.125;
+constexpr float kFewTexels = 1.5f;
+constexpr float kBlends = 2;  // maps that a lookup blends at most
 
 // Texels in height of a map with its mips in a row above it.
 int shelved(int side) { return side + side / 2; }
@@ -70,20 +78,32 @@ Result<void> makePrograms(gl::Device& device, State& s) {
         SHOAL_TRY_ASSIGN(s.deposit[i],
                          device.programs().get({{"water/photon_deposit.comp"}, variants[i], "photon deposit"}));
     }
-    SHOAL_TRY_ASSIGN(s.resolve, device.programs().get({{"water/caustic_resolve.comp"}, {}, "caustic resolve"}));
     SHOAL_TRY_ASSIGN(s.disc, device.programs().get({{"water/caustic_disc.comp"}, {}, "caustic disc"}));
     SHOAL_TRY_ASSIGN(s.layers, device.programs().get({{"water/caustic_layers.comp"}, {}, "caustic layers"}));
-    SHOAL_TRY_ASSIGN(s.mips, device.programs().get({{"water/caustic_mips.comp"}, {}, "caustic mips"}));
+    for (int sharp = 0; sharp < 2; ++sharp) {
+        std::vector<std::pair<std::string, std::string>> defines;
+        if (sharp) defines.push_back({"SHARP", ""});
+        SHOAL_TRY_ASSIGN(s.resolve[sharp],
+                         device.programs().get({{"water/caustic_resolve.comp"}, defines, "caustic resolve"}));
+        SHOAL_TRY_ASSIGN(s.mips[sharp], device.programs().get({{"water/caustic_mips.comp"}, defines, "caustic mips"}));
+    }
     const auto lookup = [&](std::vector<std::pair<std::string, std::string>> defines) {
         return device.programs().get({{"water/caustic_lookup.comp"}, std::move(defines), "caustic lookup"});
     };
-    for (int i = 0; i < 8; ++i) {
+    for (int i = 0; i < 12; ++i) {
         std::vector<std::pair<std::string, std::string>> defines;
-        if (i & 4) defines.push_back({"TILES", ""});
+        if (i >= 4) defines.push_back({"TILES", ""});
+        if (i >= 8) defines.push_back({"WATERLINE", ""});
         if (!(i & 2)) defines.push_back({"NO_LAMPS", ""});
         if (!(i & 1)) defines.push_back({"NO_NORMALS", ""});
         SHOAL_TRY_ASSIGN(s.lookup[i >> 2][i >> 1 & 1][i & 1], lookup(defines));
     }
+    for (int normals = 0; normals < 2; ++normals) {
+        std::vector<std::pair<std::string, std::string>> defines = {{"NO_LAMPS", ""}, {"FEW_SLOTS", ""}};
+        if (!normals) defines.push_back({"NO_NORMALS", ""});
+        SHOAL_TRY_ASSIGN(s.lookupFew[normals], lookup(defines));
+    }
+    SHOAL_TRY_ASSIGN(s.listTiles, device.programs().get({{"water/caustic_tiles.comp"}, {}, "caustic tiles"}));
     return {};
 }
 
@@ -134,13 +154,13 @@ void depositSlot(State& s, const frame::Context& context, int index, const Light
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     s.photonCount += std::int64_t(lattice.countX) * lattice.countZ;
 
-    s.resolve->set(1, float(1 / units));
+    for (const gl::Program* resolve : s.resolve) resolve->set(1, float(1 / units));
 }
 
 // The passes after the deposit, in order: each covers `side` texels a side of one layer or two.
 class LayerPasses {
 public:
-    LayerPasses(State& s, int deposits) : state_(s), flag_(2 * deposits * deposits) {}
+    LayerPasses(State& s, int deposits, int slot) : state_(s), flag_(2 * deposits * deposits), slot_(slot) {}
 
     void add(const gl::Program& program, int side, std::function<void()> bind) {
         const auto groups = [&](int axis) {
@@ -154,12 +174,13 @@ public:
         state_.commands.writeAll(std::span<const std::uint32_t>(words_));
         state_.deposits.bindStorage(SHOAL_STORAGE_WATER);
         state_.commands.bindStorage(SHOAL_STORAGE_WATER + 1);
-        glProgramUniform2i(state_.layers->name(), 0, int(flag_), int(count_));
+        state_.secondUsed.bindStorage(SHOAL_STORAGE_WATER + 2);
+        glProgramUniform3i(state_.layers->name(), 0, flag_, int(count_), slot_);
         state_.layers->dispatch(1);
         glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, state_.commands.name());
         for (std::size_t i = 0; i < count_; ++i) {
-            glMemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
-                            GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
+            glMemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
+                            GL_SHADER_STORAGE_BARRIER_BIT);
             passes_[i].bind();
             passes_[i].program->use();
             glDispatchComputeIndirect(GLintptr(3 * sizeof(std::uint32_t) * i));
@@ -173,16 +194,17 @@ private:
         std::function<void()> bind;
     };
     State& state_;
-    std::size_t flag_, count_ = 0;
+    int flag_, slot_;
+    std::size_t count_ = 0;
     std::array<Pass, kMostPasses> passes_;
     std::array<std::uint32_t, 3 * kMostPasses> words_{};
 };
 
-void addMips(State& s, LayerPasses& passes, const gl::Texture& texture, int firstLayer, int side, int levels) {
+void addMips(State& s, LayerPasses& passes, bool sharp, int firstLayer, int side, int levels) {
     for (int level = 1; level < levels; ++level)
-        passes.add(*s.mips, side >> level, [&s, &texture, firstLayer, side, level] {
-            gl::bindImage(0, texture, GL_READ_WRITE);
-            glProgramUniform4i(s.mips->name(), 0, firstLayer, side, side >> level, 0);
+        passes.add(*s.mips[sharp], side >> level, [&s, sharp, firstLayer, side, level] {
+            gl::bindImage(0, sharp ? s.sharp : s.maps, GL_READ_WRITE);
+            glProgramUniform4i(s.mips[sharp]->name(), 0, firstLayer, side, side >> level, 0);
         });
 }
 
@@ -190,31 +212,38 @@ int levelsFor(double radius) {
     return std::clamp(1 + int(std::floor(std::log2(std::max(radius, 1.0)))), 1, kSharpLevels);
 }
 
-void resolveSlot(State& s, const frame::Context& context, int index, double disc, int fine) {
+void resolveSlot(State& s, const frame::Context& context, int index, double disc, int fine, bool alone) {
     const gl::PassScope pass(context.timer, "caustic maps");
     const int resolution = s.setup.resolution, side = resolution * fine;
     const bool blurs = disc >= kSeenDisc;
-    // The second layer is dark unless a photon met it.
-    const float dark = 0;
-    glClearTexSubImage(s.maps.name(), 0, 0, 0, 2 * index + 1, resolution, shelved(resolution), 1, GL_RED, GL_FLOAT,
-                       &dark);
-    LayerPasses passes(s, side);
-    passes.add(*s.resolve, side, [&] {
+    LayerPasses passes(s, side, index);
+    passes.add(*s.resolve[blurs], blurs ? side : (side + 3) / 4, [&] {
         gl::bindImage(0, blurs ? s.sharp : s.maps, GL_WRITE_ONLY);
-        glProgramUniform2i(s.resolve->name(), 0, side, blurs ? 0 : 2 * index);
+        glProgramUniform4i(s.resolve[blurs]->name(), 0, side, index, s.mipLevels, 0);
     });
     if (blurs) {
         const int levels = levelsFor(disc * fine);
-        addMips(s, passes, s.sharp, 0, side, levels);
-        passes.add(*s.disc, resolution, [&s, resolution, fine, index, levels] {
+        addMips(s, passes, true, 0, side, levels);
+        passes.add(*s.disc, resolution, [&s, resolution, fine, index, levels, alone] {
             gl::bindTexture(0, s.sharp);
             glBindSampler(0, 0);
             gl::bindImage(0, s.maps, GL_WRITE_ONLY);
+            // Where maps follow each other, half as many texels a radius will do: a quarter of the time.
+            s.disc->set(1, alone ? kFewTexels : 0.5f * kFewTexels);
             glProgramUniform4i(s.disc->name(), 0, resolution, fine, index, levels);
         });
     }
-    addMips(s, passes, s.maps, 2 * index, resolution, s.mipLevels);
+    if (blurs) addMips(s, passes, false, 2 * index, resolution, s.mipLevels);
     passes.run();
+}
+
+// Lists and flags of tiles; grown for larger pictures.
+void makeTileBuffers(State& s, std::size_t tiles, std::size_t header) {
+    const std::size_t list = header + tiles * sizeof(std::uint32_t), flags = 2 * tiles * sizeof(std::uint32_t);
+    if (s.tiles.bytes() < list) s.tiles = gl::Buffer::create(*s.device, list, "caustic tiles");
+    if (s.tileFlags.bytes() >= flags) return;
+    s.tileFlags = gl::Buffer::create(*s.device, flags, "caustic tile flags");
+    s.tileFlags.clear(0);
 }
 
 Vec4 with(Vec3 v) { return {v.x, v.y, v.z, 0}; }
@@ -260,22 +289,25 @@ Result<Photons> Photons::create(gl::Device& device, const PhotonSetup& setup) {
     s.device = &device;
     s.setup = setup;
     SHOAL_TRY(makePrograms(device, s));
-    while (s.mipLevels < kMostMipLevels && setup.resolution % (1 << s.mipLevels) == 0) ++s.mipLevels;
+    s.mipLevels = setup.resolution % (1 << (kMipLevels - 1)) == 0 ? kMipLevels : 1;
     gl::TextureDesc desc;
     desc.target = GL_TEXTURE_2D_ARRAY;
-    desc.format = GL_R32F;
+    desc.format = GL_RG32F;
     desc.width = setup.resolution, desc.height = shelved(setup.resolution);
     desc.layers = 2 * setup.maxSlots;
     desc.label = "caustic maps";
     s.maps = gl::Texture::create(device, desc);
-    s.mostFine = setup.resolution <= kLargestFineMap ? 2 : 1;
+    s.mostFine = setup.resolution <= kFinestMap ? 3 : setup.resolution <= kLargestFineMap ? 2 : 1;
     const std::size_t side = std::size_t(setup.resolution) * std::size_t(s.mostFine);
+    desc.format = GL_R32F;
     desc.width = int(side), desc.height = shelved(int(side));
     desc.layers = 2;
     desc.label = "caustics before blur";
     s.sharp = gl::Texture::create(device, desc);
     s.deposits = gl::Buffer::create(device, (2 * side * side + 1) * sizeof(std::uint32_t), "photon deposits");
     s.commands = gl::Buffer::create(device, 3 * kMostPasses * sizeof(std::uint32_t), "caustic work groups");
+    s.secondUsed = gl::Buffer::create(device, SHOAL_MAX_LIGHT_SLOTS * sizeof(std::uint32_t), "layers that hold light");
+    s.secondUsed.clear(0);
     if (!s.maps || !s.sharp || !s.deposits || !s.commands) return internalError("no memory for caustic maps");
     s.waterBlock = gl::BlockBuffer<WaterBlock>::create(device, "water");
     s.causticBlock = gl::BlockBuffer<CausticBlock>::create(device, "caustics");
@@ -298,11 +330,11 @@ void Photons::render(const frame::Context& context, const PhotonParams& params, 
         const LightSlot& slot = slots[std::size_t(i)];
         s.sunHasSlot = s.sunHasSlot || (slot.light < 0 && !slot.reflected);
         const double disc = double(slot.discRadius) / double(slot.texel);
-        const bool alone = cascadesOf(slot, slots) == 1;
+        const bool alone = slot.light < 0 && !slot.reflected && cascadesOf(slot, slots) == 1;
         const int fine = alone && disc >= kSeenDisc && disc < kWideDisc ? s.mostFine : 1;
         depositSlot(s, context, i, slot, photonsOf(slot, slots, params.photons), variantOf(slot, body, lights, air),
                     slope, fine);
-        resolveSlot(s, context, i, disc, fine);
+        resolveSlot(s, context, i, disc, fine, alone);
     }
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
 }
@@ -314,7 +346,7 @@ void Photons::resolve(const frame::Context& context, const Body& body, const Bod
     s.waterBlock.write(makeWaterBlock(body, lights));
     s.waterBlock.bindUniform(SHOAL_BLOCK_WATER);
     CausticBlock block = viewRays(context);
-    block.maps = {float(s.mipLevels), s.sunHasSlot ? 1.0f : 0.0f, 0, 0};
+    block.maps = {float(s.mipLevels), s.sunHasSlot ? 1.0f : 0.0f, kBlends, 0};
     s.causticBlock.write(block);
     s.causticBlock.bindUniform(SHOAL_BLOCK_WATER_PASS);
     body.gpuWaves->bind();
@@ -328,24 +360,31 @@ void Photons::resolve(const frame::Context& context, const Body& body, const Bod
     gl::bindImage(1, outputs.ambient ? outputs.ambient : outputs.direct, GL_WRITE_ONLY);
     const bool lamps =
         std::any_of(views.slots().begin(), views.slots().end(), [](const LightSlot& slot) { return slot.light >= 0; });
-    const gl::Program &all = *s.lookup[0][lamps][normals], &listed = *s.lookup[1][lamps][normals];
+    const bool few = !lamps && std::count_if(views.slots().begin(), views.slots().end(),
+                                             [](const LightSlot& slot) { return !slot.reflected; }) <= 2;
+    const gl::Program& all = few ? *s.lookupFew[normals] : *s.lookup[0][lamps][normals];
     const int tilesX = (context.view.width + all.localSize(0) - 1) / all.localSize(0);
     const int tilesY = (context.view.height + all.localSize(1) - 1) / all.localSize(1);
-    const std::size_t bytes = (4 + std::size_t(tilesX) * std::size_t(tilesY)) * sizeof(std::uint32_t);
-    if (s.tiles.bytes() < bytes) s.tiles = gl::Buffer::create(*s.device, bytes, "caustic tiles");
-    const std::uint32_t none[4] = {0, 1, 1, 0};
+    const std::uint32_t none[8] = {0, 1, 1, 0, 0, 1, 1, 0};
+    makeTileBuffers(s, std::size_t(tilesX) * std::size_t(tilesY), sizeof none);
     s.tiles.write(0, std::as_bytes(std::span(none)));
     s.tiles.bindStorage(SHOAL_STORAGE_WATER);
+    s.tileFlags.bindStorage(SHOAL_STORAGE_WATER + 1);
+    s.secondUsed.bindStorage(SHOAL_STORAGE_WATER + 2);
     all.set(0, outputs.ambient ? 1 : 0);
     all.dispatch(context.view.width, context.view.height);
-    {
-        glMemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    glProgramUniform2i(s.listTiles->name(), 0, tilesX, tilesY);
+    s.listTiles->dispatch(tilesX * tilesY);
+    glMemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, s.tiles.name());
+    for (const int list : {2, 1}) {
+        const gl::Program& listed = *s.lookup[list][lamps][normals];
         listed.set(0, outputs.ambient ? 1 : 0);
         listed.use();
-        glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, s.tiles.name());
-        glDispatchComputeIndirect(0);
-        glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
+        glDispatchComputeIndirect(list == 2 ? 0 : 4 * sizeof(std::uint32_t));
     }
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT);
 }
 
@@ -355,7 +394,7 @@ frame::Stats Photons::stats() const {
     const State& s = *state_;
     frame::Stats stats;
     stats.bytes = std::int64_t(s.deposits.bytes());
-    for (const gl::Texture* texture : {&s.maps, &s.sharp})
+    for (const gl::Texture* texture : {&s.maps, &s.sharp, &s.maps})  // two numbers a texel of the maps
         stats.bytes += std::int64_t(sizeof(float)) * texture->width() * texture->height() * texture->view().layers;
     stats.counts = {{"photons", s.photonCount}};
     return stats;

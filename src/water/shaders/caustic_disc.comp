@@ -7,10 +7,11 @@
 layout(local_size_x = 16, local_size_y = 8) in;
 
 layout(binding = 0) uniform sampler2DArray sharpMap;   // two layers
-layout(binding = 0, r32f) uniform writeonly image2DArray maps;
+layout(binding = 0, rg32f) uniform writeonly image2DArray maps;
 layout(location = 0) uniform ivec4 place;   // texels a side of the map; sharp texels a side of its texel; slot; levels
 
-const float kFewTexels = 1.5;   // radius from which the next coarser level is taken when it doubles
+layout(location = 1) uniform float fewTexels;   // radius from which the next coarser level is taken when it doubles
+
 const float kMostTexels = 6.0;  // radius at the coarsest level: a stretched disc is cut off there
 const float kLeastTexels = 0.5; // so that every line of a texel meets it
 
@@ -23,7 +24,7 @@ void main() {
     float travel = height < kNothingLit ? max(mean.w * (height - lightSpace.slots[slot].reach.z), 0.0) : 0.0;
     float across = lightSpace.slots[slot].irradiance.w * travel * lightSpace.slots[slot].place.w * float(place.y);
 
-    int level = clamp(int(floor(log2(max(across, 1e-3) / kFewTexels))), 0, place.w - 1);
+    int level = clamp(int(floor(log2(max(across, 1e-3) / fewTexels))), 0, place.w - 1);
     float shrink = exp2(-float(level));
     across = max(across * shrink, kLeastTexels);
     float along = min(across * disc.z, kMostTexels);
@@ -33,8 +34,8 @@ void main() {
     float qx = dot(disc.xy * disc.xy, q), qy = dot(disc.yx * disc.yx, q), qxy = disc.x * disc.y * (q.x - q.y);
     float shift = -qxy / qx, widest = 1.0 / qx, steep = q.x * q.y / (qx * qx);
 
-    // A texel that is written may be two that are read: the mean over both of them, and in a row over two lines each.
-    float width = float(place.y) * shrink, apart = max(0.5 * (width - 1.0), 0.0);
+    // A texel that is written may be several that are read: two lines and columns as far apart as those spread.
+    float width = float(place.y) * shrink, apart = sqrt(max(width * width - 1.0, 0.0) / 12.0);
     vec4 lines = vec4(-0.25, 0.25, -0.25, 0.25) + vec4(-apart, -apart, apart, apart);
     vec2 centre = (vec2(id.xy) + 0.5) * width;
     vec2 extent = vec2(sqrt(qy), sqrt(qx)) / sqrt(q.x * q.y) + 0.5 + apart;
@@ -60,5 +61,6 @@ void main() {
             weights += weight;
         }
     }
-    imageStore(maps, ivec3(id.xy, 2 * slot + id.z), vec4(sum / max(weights, 1e-6)));
+    imageStore(maps, ivec3(id.xy, 2 * slot + id.z),
+               vec4(sum / max(weights, 1e-6), height < kNothingLit ? height : mean.w * 1e9, 0.0, 0.0));
 }

@@ -1,9 +1,10 @@
 #version 450 core
 // Light on each pixel's surface that came through the water's surface or was thrown up by it, from the caustic maps;
 // and the smooth light of sky and scattered sun under water. Variants: NO_NORMALS, normals are taken from the depth;
-// NO_LAMPS, the sun alone;
-// TILES, only the tiles listed before, exactly; without it all pixels as if no wave were high, the surface threw no light
-// up and nothing lay behind anything: tiles where that does not hold are listed.
+// NO_LAMPS, the sun alone; FEW_SLOTS, two maps of it at most;
+// TILES, only tiles listed before: with surfaces behind others, and with WATERLINE those near it too; without it all
+// pixels as if no wave were high, the surface threw no light up and nothing lay behind anything: tiles where that does
+// not hold are listed.
 // llvmpipe runs every branch and every loop at least once: hence two passes, and straight lines in the first.
 #include "water/caustic.shared.h"
 #include "frame/gbuffer.lib.glsl"
@@ -13,10 +14,6 @@
 
 layout(local_size_x = 16, local_size_y = 8) in;
 
-#ifndef TILES
-shared uint shallow;   // 1: the tile has surfaces behind others or near the waterline
-#endif
-
 layout(binding = 0) uniform sampler2D viewDepthTexture;
 #ifndef NO_NORMALS
 layout(binding = 1) uniform sampler2D normalTexture;
@@ -25,12 +22,23 @@ layout(binding = SHOAL_UNIT_CAUSTIC_MAPS) uniform sampler2DArray causticMaps;
 layout(binding = 0, rgba16f) uniform writeonly image2D directImage;
 layout(binding = 1, rgba16f) uniform writeonly image2D ambientImage;
 layout(location = 0) uniform bool ambientWanted;
-// Groups of a dispatch over the listed tiles, then the tiles: x, y in 16 bits each.
-layout(std430, binding = SHOAL_STORAGE_WATER) buffer Tiles { uint tileGroups[4]; uint tiles[]; };
+#ifdef TILES
+// Lists of tiles (caustic_tiles.comp): near the waterline from the start, behind something from the end.
+layout(std430, binding = SHOAL_STORAGE_WATER) readonly buffer Tiles { uint tileGroups[8]; uint tiles[]; };
+// Slots whose second layer holds light.
+layout(std430, binding = SHOAL_STORAGE_WATER + 2) readonly buffer Layers { uint secondUsed[SHOAL_MAX_LIGHT_SLOTS]; };
+#else
+// Two words a tile: not 0 where it has surfaces near the waterline, behind others.
+layout(std430, binding = SHOAL_STORAGE_WATER + 1) writeonly buffer TileFlags { uint tileFlags[]; };
+#endif
 
 const float kSkyTransmittance = 0.934;   // of light from all of the sky through level water
 const float kFromBelow = 0.05;           // of downwelling light comes back from below
-const int kMostCascades = 4;              // slots of one group
+#ifdef FEW_SLOTS
+const int kMostCascades = 2;              // slots of one group
+#else
+const int kMostCascades = 4;
+#endif
 const float kRimTexels = 8.0;            // over which a slot's map turns into the next one
 const float kGapM = 0.03;                // a surface and its own depth map differ by no more, apart from its slope
 
@@ -52,12 +60,13 @@ vec3 normalAt(ivec2 pixel, vec3 position, float depth) {
         ivec2 after = min(pixel + step, limit), before = max(pixel - step, ivec2(0));
         float a = texelFetch(viewDepthTexture, after, 0).x, b = texelFetch(viewDepthTexture, before, 0).x;
         bool useAfter = after != pixel && a > 0.0 && (before == pixel || b <= 0.0 || abs(a - depth) < abs(b - depth));
-        vec3 other = useAfter ? positionAt(vec2(after) + 0.5, a) - position : position - positionAt(vec2(before) + 0.5, b);
-        along[axis] = other;
+        along[axis] = useAfter ? positionAt(vec2(after) + 0.5, a) - position
+                               : position - positionAt(vec2(before) + 0.5, b);
     }
     vec3 n = cross(along[0], along[1]);
-    vec3 toEye = -(causticBlock.ray.xyz + causticBlock.rayX.xyz * float(pixel.x) + causticBlock.rayY.xyz * float(pixel.y));
-    n *= dot(n, toEye) < 0.0 ? -1.0 : 1.0;
+    vec2 at = vec2(pixel);
+    vec3 ray = causticBlock.ray.xyz + causticBlock.rayX.xyz * at.x + causticBlock.rayY.xyz * at.y;
+    n *= dot(n, ray) > 0.0 ? -1.0 : 1.0;
     return dot(n, n) > 0.0 ? normalize(n) : vec3(0.0, 1.0, 0.0);
 #endif
 }
@@ -74,8 +83,8 @@ vec3 towardsLight(vec3 p, int slot) {
 }
 
 // The map's value for a surface at light-space place s: bilinear over what is seen of one height. group: any slot of
-// the map's group; slope: of the surface in light space; pixelM: metres a pixel; behind: set where the second layer would have
-// to be looked at.
+// the map's group; slope: of the surface in light space; pixelM: metres a pixel; behind: set where the second layer
+// would have to be looked at.
 float mapValue(vec2 s, float height, float slope, float pixelM, int group, int slot, vec4 place, inout bool behind) {
     int size = int(lightSpace.counts.y);
     vec4 rows = lightSpace.slots[group].rows, heights = lightSpace.slots[group].height;
@@ -86,33 +95,33 @@ float mapValue(vec2 s, float height, float slope, float pixelM, int group, int s
     vec2 at = s * (place.w * exp2(-float(mip))) - 0.5, low = floor(at), f = at - low;
     ivec2 corner = ivec2(low) - (ivec2(floor(place.xy * place.w + 0.5)) >> mip);
     vec4 w = vec4((1.0 - f.x) * (1.0 - f.y), f.x * (1.0 - f.y), (1.0 - f.x) * f.y, f.x * f.y);
-    ivec2 a = clamp(corner, ivec2(0), ivec2((size >> mip) - 1)), b = clamp(corner + 1, ivec2(0), ivec2((size >> mip) - 1));
-    ivec2 ta = (a << mip) + ((1 << mip) >> 1), tb = (b << mip) + ((1 << mip) >> 1);
-    ta.y = int(rows.x) * ta.y + int(rows.y), tb.y = int(rows.x) * tb.y + int(rows.y);
+    ivec2 last = ivec2((size >> mip) - 1);
+    ivec2 a = clamp(corner, ivec2(0), last), b = clamp(corner + 1, ivec2(0), last);
     // Mips lie above the map itself (one level for the sampler: a level of each pixel's own costs llvmpipe dear).
     ivec2 shelf = mip > 0 ? ivec2(size - (2 * size >> mip), size) : ivec2(0);
     int layer = 2 * slot;
-    vec4 depth = vec4(texelFetch(litDepth, ivec3(ta, layer), 0).x, texelFetch(litDepth, ivec3(tb.x, ta.y, layer), 0).x,
-                      texelFetch(litDepth, ivec3(ta.x, tb.y, layer), 0).x, texelFetch(litDepth, ivec3(tb, layer), 0).x);
-    vec4 value = vec4(texelFetch(causticMaps, ivec3(shelf + ivec2(a), layer), 0).x,
-                      texelFetch(causticMaps, ivec3(shelf + ivec2(b.x, a.y), layer), 0).x,
-                      texelFetch(causticMaps, ivec3(shelf + ivec2(a.x, b.y), layer), 0).x,
-                      texelFetch(causticMaps, ivec3(shelf + ivec2(b), layer), 0).x);
-    // Heights as heightOfDepth gives them; in front of nothing is in front.
-    vec4 lit = (heights.x * depth + heights.y) / (heights.z * depth + heights.w);
-    bvec4 hidden = greaterThan(side * (vec4(height) - lit) * sign(depth), vec4(tolerance));
+    // Irradiance, and the height of what has it.
+    vec2 first = texelFetch(causticMaps, ivec3(shelf + a, layer), 0).xy;
+    vec2 second = texelFetch(causticMaps, ivec3(shelf + ivec2(b.x, a.y), layer), 0).xy;
+    vec2 third = texelFetch(causticMaps, ivec3(shelf + ivec2(a.x, b.y), layer), 0).xy;
+    vec2 fourth = texelFetch(causticMaps, ivec3(shelf + b, layer), 0).xy;
+    vec4 value = vec4(first.x, second.x, third.x, fourth.x), lit = vec4(first.y, second.y, third.y, fourth.y);
+    bvec4 hidden = greaterThan(side * (vec4(height) - lit), vec4(tolerance));
     float sum = dot(w, mix(value, vec4(0.0), hidden));
     // What the first layer hides may lie in the second.
     w = mix(vec4(0.0), w, hidden);
 #ifndef TILES
     behind = behind || any(greaterThan(w, vec4(0.0)));
 #else
+    ivec2 ta = (a << mip) + ((1 << mip) >> 1), tb = (b << mip) + ((1 << mip) >> 1);
+    ta.y = int(rows.x) * ta.y + int(rows.y), tb.y = int(rows.x) * tb.y + int(rows.y);
     for (int i = 0; i < 4 && (w.x > 0.0 || w.y > 0.0 || w.z > 0.0 || w.w > 0.0); ++i) {
         ivec2 at2 = ivec2((i & 1) == 0 ? ta.x : tb.x, i < 2 ? ta.y : tb.y);
         ivec2 map2 = ivec2((i & 1) == 0 ? a.x : b.x, i < 2 ? a.y : b.y);
-        float second = texelFetch(litDepth, ivec3(at2, layer + 1), 0).x;
-        bool farther = second > 0.0 && side * (height - heightOfDepth(second, heights)) > tolerance;
-        sum += farther ? 0.0 : w[i] * texelFetch(causticMaps, ivec3(shelf + ivec2(map2), layer + 1), 0).x;
+        float depth = texelFetch(litDepth, ivec3(at2, layer + 1), 0).x;
+        bool farther = depth > 0.0 && side * (height - heightOfDepth(depth, heights)) > tolerance;
+        float value2 = texelFetch(causticMaps, ivec3(shelf + map2, layer + 1), 0).x;
+        sum += farther || secondUsed[slot] == 0u ? 0.0 : w[i] * value2;
         if (i == 3) w = vec4(0.0);
     }
 #endif
@@ -130,7 +139,7 @@ bool isUnderWater(vec3 p) {
     vec4 area = waterBlock.area;
     bool inArea = all(greaterThanEqual(p.xz, area.xy)) && all(lessThanEqual(p.xz, area.zw));
     float surface = 0.0;
-#ifdef TILES
+#ifdef WATERLINE
     if (abs(p.y - waterBlock.shape.x) <= waterBlock.shape.w) surface = waveSlopeAt(p.xz).x;
 #endif
     return inArea && p.y - waterBlock.shape.x < surface;
@@ -138,7 +147,11 @@ bool isUnderWater(vec3 p) {
 
 void main() {
 #ifdef TILES
+#ifdef WATERLINE
     uint tile = tiles[gl_WorkGroupID.x];
+#else
+    uint tile = tiles[tiles.length() - 1 - int(gl_WorkGroupID.x)];
+#endif
     ivec2 corner = ivec2(tile & 0xffffu, tile >> 16);
 #else
     ivec2 corner = ivec2(gl_WorkGroupID.xy);
@@ -162,7 +175,7 @@ void main() {
 
     vec3 direct = vec3(0.0);
     float sunLeft = causticBlock.maps.y == 0.0 ? 1.0 : 0.0;   // share of the sun that no map covers
-#if defined(NO_LAMPS) && !defined(TILES)
+#if defined(NO_LAMPS) && !defined(WATERLINE)
     // The sun's slots come first.
     if (causticBlock.maps.y != 0.0) {
         const int group = 0;
@@ -179,15 +192,16 @@ void main() {
         float left = there && reflected != under ? 1.0 : 0.0, value = 0.0;
         if (facing <= 0.0) left = 0.0;
         // The finest slot there, and the next one where that fades.
-        int from = group;
-        for (int k = 0; k < 2; ++k) {
+        // (A count that the compiler does not know: it would unroll the loop, and llvmpipe run both turns for all.)
+        int from = group, blends = int(causticBlock.maps.z);
+        for (int k = 0; k < blends; ++k) {
             int slot = -1;
             float share = 0.0;
             vec4 place = lightSpace.slots[group].place;
             for (int i = 0; i < kMostCascades; ++i) {
-                int other = min(group + i, end - 1);
+                int other = min(group + i, SHOAL_MAX_LIGHT_SLOTS - 1);
                 float part = min(insideSlot(s, lightSpace.slots[other].place, other + 1 < end), left);
-                bool taken = slot < 0 && other >= from && part > 0.0;
+                bool taken = slot < 0 && other >= from && other < end && part > 0.0;
                 slot = taken ? other : slot;
                 share = taken ? part : share;
                 place = taken ? lightSpace.slots[other].place : place;
@@ -213,13 +227,9 @@ void main() {
     float sunFacing = max(dot(normal, waterBlock.sunRefracted.xyz) / waterBlock.sunRefracted.y, 0.0);
     if (under) direct += onLevel * beam * (sunLeft * sunFacing);
 #ifndef TILES
-    // One thread asks for its tile.
-    if (gl_LocalInvocationIndex == 0u) shallow = 0u;
-    barrier();
-    if (behind || (there && p.y > waterBlock.shape.x - waterBlock.shape.w)) shallow = 1u;
-    barrier();
-    if (gl_LocalInvocationIndex == 0u && shallow != 0u)
-        tiles[atomicAdd(tileGroups[0], 1u)] = uint(corner.x) | uint(corner.y) << 16;
+    int tile = 2 * (corner.y * int(gl_NumWorkGroups.x) + corner.x);
+    if (there && p.y > waterBlock.shape.x - waterBlock.shape.w) tileFlags[tile] = 1u;
+    if (behind) tileFlags[tile + 1] = 1u;
 #endif
     if (!inside) return;
     imageStore(directImage, pixel, vec4(direct, under ? 1.0 : 0.0));
