@@ -1,6 +1,7 @@
 #version 450 core
 // Depth comes from the rasteriser; only a masked material looks at its alpha. Variant PEEL: what lies behind another
 // layer [Everitt 2001].
+#include "frame/bindings.shared.h"  // outside every #ifdef: it is included once
 #ifdef MASKED
 #include "frame/material.io.glsl"
 layout(location = 0) in vec4 vUv;
@@ -8,7 +9,6 @@ layout(location = 1) in float vAlpha;
 #endif
 
 #ifdef PEEL
-#include "frame/bindings.shared.h"
 layout(binding = SHOAL_UNIT_PASS + 0) uniform sampler2DArray peelDepth;
 layout(location = 0) uniform vec2 peel;   // layer, gap
 #endif
