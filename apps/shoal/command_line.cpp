@@ -70,6 +70,25 @@ void addRender(CLI::App& app, RenderOptions& o) {
                  "camera.fovDeg=40\n");
 }
 
+void addView(CLI::App& app, ViewOptions& o) {
+    CLI::App* verb = app.add_subcommand("view", "Shows a scene or models in a window: look, turn, change, save");
+    verb->add_option("file", o.files,
+                     "scene (.toml), or models (.glb, .gltf, .obj, ...) and an environment (.hdr, .exr); default: a "
+                     "shipped scene");
+    verb->add_option("--set", o.sets, "key=value: overrides a value of the scene; may be repeated")
+        ->take_all()
+        ->expected(1);
+    verb->add_option("--size", o.size, "WIDTHxHEIGHT of the window; default 1280x720");
+    verb->add_option("--ui-scale", o.uiScale, "size of text and panels, 0.5 .. 4; default: as the screen says")
+        ->check(CLI::Range(0.5, 4.0));
+    verb->add_option("--device", o.device, "auto, or cpu for the software renderer")
+        ->check(CLI::IsMember({"auto", "cpu"}));
+    verb->add_option("--script", o.script, "does what this file says instead of a person (docs/viewer.md)");
+    verb->add_flag("--debug", o.debug, "OpenGL debug messages to stderr");
+    verb->footer("\nF1 in the window lists the keys.\n\nExamples:\n  shoal view scenes/plaza.toml\n"
+                 "  shoal view ship.glb evening.hdr\n");
+}
+
 void addInfo(CLI::App& app, InfoOptions& o) {
     CLI::App* verb = app.add_subcommand("info", "Tells what is in a file, or what can draw on this machine");
     verb->add_option("file", o.files, "models, scenes, pictures, assets, camera poses");
@@ -166,11 +185,13 @@ int runCommandLine(int argc, char** argv) {
         "unwritable output,\n"
         "4 no usable device.\n\nExample:\n  shoal render scenes/plaza.toml -o plaza.png\n");
     RenderOptions renderOptions;
+    ViewOptions viewOptions;
     InfoOptions infoOptions;
     CompareOptions compareOptions;
     DemoOptions demoOptions;
     BenchOptions benchOptions;
     addRender(app, renderOptions);
+    addView(app, viewOptions);
     addInfo(app, infoOptions);
     addCompare(app, compareOptions);
     addDemo(app, demoOptions);
@@ -191,6 +212,7 @@ int runCommandLine(int argc, char** argv) {
     }
     const std::string verb = app.get_subcommands().empty() ? "" : app.get_subcommands()[0]->get_name();
     if (verb == "render") return render(renderOptions);
+    if (verb == "view") return view(viewOptions);
     if (verb == "info") return info(infoOptions);
     if (verb == "compare") return compare(compareOptions);
     if (verb == "demo") return demo(demoOptions);

@@ -247,6 +247,32 @@ Result<void> Pipeline::setScene(const scene::Scene& scene, scene::Content conten
     return {};
 }
 
+Result<void> Pipeline::updateScene(const scene::Scene& scene) {
+    SHOAL_ASSERT_MSG(state_->loaded, "setScene comes before updateScene");
+    Loaded& loaded = *state_->loaded;
+    SHOAL_TRY(refuseUnbuilt(scene));
+    frame::ShadowParams shadows;
+    frame::LightingParams lighting;
+    frame::PostParams post;
+    SHOAL_TRY(bindNamed(scene, "shadows", shadows));
+    SHOAL_TRY(bindNamed(scene, "lighting", lighting));
+    SHOAL_TRY(bindNamed(scene, "post", post));
+    if (!scene::sameLights(scene, loaded.scene)) {
+        scene::Content& content = loaded.content;
+        SHOAL_TRY(scene::reloadLights(scene, content));
+        light::Environment black;
+        black.radiance = Image(8, 4, 3);
+        SHOAL_TRY(state_->lighting.setEnvironment(content.environment ? *content.environment : black));
+    }
+    lighting.environmentIntensity *= scene.environment.intensity;
+    lighting.sunDisc = lighting.sunDisc && loaded.content.sunInBackground;
+    loaded.shadowParams = shadows;
+    loaded.lightingParams = lighting;
+    loaded.postParams = post;
+    loaded.scene = scene;
+    return {};
+}
+
 Result<void> Pipeline::open(const std::filesystem::path& file, std::span<const scene::Override> overrides) {
     SHOAL_TRY_ASSIGN(const scene::Scene scene, scene::openScene(file, overrides));
     SHOAL_TRY_ASSIGN(scene::Content content,
@@ -279,15 +305,19 @@ Result<void> Pipeline::render(const FrameRequest& request) {
     const int sampleCount = temporal                                ? (first ? kPreRoll : 1)
                             : request.antialiasing == "supersample" ? request.samples
                                                                     : 1;
-    s.moveInstances(request.time);
-    s.loaded->geometry->update(context);
-    s.drawNeededViews(context);
+    const bool goesOn = !temporal && request.sampleBegin > 0;  // all below is as the call before left it
+    const int sampleEnd = temporal || request.sampleEnd <= 0 ? sampleCount : std::min(request.sampleEnd, sampleCount);
+    if (!goesOn) {
+        s.moveInstances(request.time);
+        s.loaded->geometry->update(context);
+        s.drawNeededViews(context);
+    }
     s.lighting.setTermsWanted(false);
     const frame::PostParams& look = s.loaded->postParams;
     s.post.setExpectedExposure(look.exposureMode == "fixed" ? std::exp2(look.exposureEv) : 0);
-    if (!temporal) s.post.beginAccumulation(request.width, request.height);
+    if (!temporal && !goesOn) s.post.beginAccumulation(request.width, request.height);
     const std::uint32_t firstSample = (request.seed - 1) * 4099;  // another place in the noise
-    for (int i = 0; i < sampleCount; ++i) {
+    for (int i = goesOn ? request.sampleBegin : 0; i < sampleEnd; ++i) {
         context.sampleIndex = firstSample + std::uint32_t(i);
         if (temporal)
             context.jitterPx =

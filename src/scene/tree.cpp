@@ -224,4 +224,16 @@ Result<void> applyOverride(Tree& root, const Override& change) {
     return {};
 }
 
+Result<void> applyOverrides(Tree& root, std::span<const Override> changes) {
+    for (const Override& change : changes) SHOAL_TRY(applyOverride(root, change));
+    const bool placed = std::any_of(changes.begin(), changes.end(),
+                                    [](const Override& change) { return change.key == "camera.position"; });
+    Tree* camera = root.find("camera");
+    if (!placed || !camera) return {};
+    std::erase_if(camera->members, [](const TreeMember& member) {
+        return member.name == "orbit" || member.name == "path" || member.name == "poses" || member.name == "model";
+    });
+    return {};
+}
+
 }  // namespace shoal::scene

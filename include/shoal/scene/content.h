@@ -51,6 +51,11 @@ struct Content {
 // Reads and makes everything, in parallel. Errors name the scene's line and the file.
 Result<Content> loadContent(const Scene& scene, const LogSink& log = {});
 
+// Whether sun, environment and lamps of two scenes are the same.
+bool sameLights(const Scene& a, const Scene& b);
+// Makes the lights of a content anew by `scene`, which has the same models; nothing changes when it fails.
+Result<void> reloadLights(const Scene& scene, Content& content);
+
 // The camera at `time`. aspect = width / height (for fitting).
 light::Camera cameraAt(const Scene& scene, const Content& content, float time, float aspect);
 
