@@ -16,7 +16,11 @@
 namespace shoal::bench {
 
 const std::vector<Benchmark>& benchmarks() {
-    static const std::vector<Benchmark> all = frameBenchmarks();
+    static const std::vector<Benchmark> all = [] {
+        std::vector<Benchmark> rows = frameBenchmarks();
+        for (const auto& more : {viewBenchmarks()}) rows.insert(rows.end(), more.begin(), more.end());
+        return rows;
+    }();
     return all;
 }
 

@@ -39,6 +39,7 @@ struct Benchmark {
 };
 const std::vector<Benchmark>& benchmarks();
 std::vector<Benchmark> frameBenchmarks();
+std::vector<Benchmark> viewBenchmarks();
 
 // In the processes that frame.startup_ms starts: times the start, prints it and ends the process; elsewhere does
 // nothing. Comes before anything else opens a device.

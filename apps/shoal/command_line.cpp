@@ -8,6 +8,7 @@
 #include <shoal/pipeline/pipeline.h>
 #include <shoal_build_info.h>
 
+#include "completion.h"
 #include "verbs.h"
 
 namespace shoal::app {
@@ -112,6 +113,49 @@ void addCompare(CLI::App& app, CompareOptions& o) {
     verb->footer("\nExample:\n  shoal compare a.png b.png --max-rmse 0.01 -o difference.png\n");
 }
 
+void addCompletion(CLI::App& app, std::string& shell) {
+    CLI::App* verb = app.add_subcommand("completion", "Prints what makes a shell complete verbs and options");
+    verb->add_option("shell", shell, "bash, zsh or fish")->required();
+    verb->footer("\nExample:\n  shoal completion bash\n");
+}
+
+// The words an option may be, for those that have few.
+std::vector<std::string> wordsOf(const std::string& option) {
+    if (option == "--device") return {"auto", "gpu", "cpu"};
+    if (option == "--antialiasing") return {"none", "supersample", "temporal"};
+    if (option == "--up") return {"y", "z"};
+    if (option != "--aov") return {};
+    std::vector<std::string> words = {"all"};
+    for (const pipeline::AovInfo& aov : pipeline::aovs()) words.push_back(aov.name);
+    return words;
+}
+
+std::vector<VerbWords> wordsOf(const CLI::App& app) {
+    std::vector<VerbWords> verbs;
+    for (const CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; })) {
+        VerbWords words{verb->get_name(), verb->get_description(), {}};
+        for (const CLI::Option* option : verb->get_options()) {
+            if (option->get_positional()) continue;
+            OptionWords one{{}, option->get_description(), option->get_type_size() > 0, {}};
+            for (const std::string& name : option->get_lnames()) {
+                one.names.push_back("--" + name);
+                one.values = wordsOf("--" + name);
+            }
+            for (const std::string& name : option->get_snames()) one.names.push_back("-" + name);
+            words.options.push_back(std::move(one));
+        }
+        verbs.push_back(std::move(words));
+    }
+    return verbs;
+}
+
+int completion(const std::string& shell, const CLI::App& app) {
+    const auto script = completionScript(shell, wordsOf(app));
+    if (!script) return report(script.error());
+    std::fputs(script->c_str(), stdout);
+    return kDone;
+}
+
 void addDemo(CLI::App& app, DemoOptions& o) {
     CLI::App* verb =
         app.add_subcommand("demo", "Draws the shipped scenes and prints what was drawn, how fast and where");
@@ -196,6 +240,8 @@ int runCommandLine(int argc, char** argv) {
     addCompare(app, compareOptions);
     addDemo(app, demoOptions);
     addBench(app, benchOptions);
+    std::string shell;
+    addCompletion(app, shell);
 
     if (argc < 2) {
         std::fputs(app.help().c_str(), stderr);
@@ -217,6 +263,7 @@ int runCommandLine(int argc, char** argv) {
     if (verb == "compare") return compare(compareOptions);
     if (verb == "demo") return demo(demoOptions);
     if (verb == "bench") return bench(benchOptions);
+    if (verb == "completion") return completion(shell, app);
     std::fputs(app.help().c_str(), stderr);
     return kUsage;
 }

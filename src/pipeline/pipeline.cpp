@@ -13,6 +13,7 @@
 #include <shoal/frame/targets.h>
 
 #include "pipeline/aov.h"
+#include "pipeline/draft_shadows.h"
 
 namespace shoal::pipeline {
 
@@ -31,6 +32,9 @@ struct Loaded {
     frame::ShadowSetup shadowSetup;
     std::optional<frame::Geometry> geometry;
     std::optional<frame::Shadows> shadows;
+    std::optional<DraftShadows> draft;  // what drafts are shaded with in their place
+    float shadowTime = 0;               // of the last frame that was no draft
+    bool drewDraft = false;             // the last frame was one
     std::vector<frame::InstanceId> instances;  // one a content instance
     bool moves = false;                        // whether any instance walks
 };
@@ -124,6 +128,7 @@ struct Pipeline::State {
     light::View view;
     bool hasView = false;
     std::uint32_t frameCount = 0;
+    bool draftsWanted = false;
 
     State(gl::Device& device, frame::Lighting lighting, frame::Post post)
         : device(device), timer(device), lighting(std::move(lighting)), post(std::move(post)) {}
@@ -132,6 +137,7 @@ struct Pipeline::State {
     frame::Context makeContext(const FrameRequest& request);
     void moveInstances(float time);
     void drawNeededViews(const frame::Context& context);
+    frame::Shadows& shadowsOf(const frame::Context& context);
     void drawSample(const frame::Context& context);
     frame::Lights lights() const;
     bool wantsTerms() const;
@@ -158,6 +164,7 @@ frame::Context Pipeline::State::makeContext(const FrameRequest& request) {
     context.timeStep = request.frameIndex == 0 ? 0 : request.timeStep;
     context.frameIndex = ++frameCount;  // request.frameIndex may be the same twice: two stills
     context.previousView = context.view;
+    context.draft = request.draft;
     if (request.frameIndex > 0) {
         if (!request.camera)
             context.previousView = viewAt(request.time - request.timeStep);
@@ -177,11 +184,22 @@ void Pipeline::State::moveInstances(float time) {
     }
 }
 
+frame::Shadows& Pipeline::State::shadowsOf(const frame::Context& context) {
+    return context.draft && loaded->draft ? loaded->draft->shadows() : *loaded->shadows;
+}
+
 void Pipeline::State::drawNeededViews(const frame::Context& context) {
+    // What moved while the other set of maps was in use is not known to have moved.
+    const bool draft = context.draft && loaded->draft;
+    const bool switched = draft != loaded->drewDraft;
+    loaded->drewDraft = draft;
+    if (draft) return loaded->draft->draw(context, loaded->shadowParams, lights(), *loaded->geometry, switched);
+    const bool stale = switched && loaded->shadowTime != context.time;
+    loaded->shadowTime = context.time;
     loaded->shadows->prepare(context, loaded->shadowParams, loaded->content.sun ? &*loaded->content.sun : nullptr,
                              loaded->content.lights, loaded->geometry->bounds());
     for (frame::NeededView& needed : loaded->shadows->neededViews()) {
-        if (needed.unchanged && !loaded->geometry->changed(needed.view)) continue;
+        if (needed.unchanged && !stale && !loaded->geometry->changed(needed.view)) continue;
         loaded->geometry->drawDepth(context, needed);
     }
 }
@@ -202,7 +220,7 @@ void Pipeline::State::drawSample(const frame::Context& context) {
     geometry.drawSurfaces(context, targets->gbuffer());
     targets->finishSurfaces(context);
     lighting.prepare(context, loaded->lightingParams, lights(), *targets);
-    lighting.shade(context, loaded->lightingParams, *loaded->shadows, {}, *targets);
+    lighting.shade(context, loaded->lightingParams, shadowsOf(context), {}, *targets);
     if (!geometry.hasTransparent()) return;
     {
         gl::PassScope pass(&timer, "copy opaque");
@@ -210,7 +228,7 @@ void Pipeline::State::drawSample(const frame::Context& context) {
     }
     targets->forward().bind();
     lighting.bind();
-    loaded->shadows->bind();
+    shadowsOf(context).bind();
     geometry.drawTransparent(context, targets->opaqueCopy(), targets->gbuffer().viewDepth);
 }
 
@@ -237,8 +255,13 @@ Result<void> Pipeline::setScene(const scene::Scene& scene, scene::Content conten
     loaded->scene = scene;
     loaded->content = std::move(content);
     SHOAL_TRY_ASSIGN(loaded->geometry, frame::Geometry::create(state_->device));
+    loaded->geometry->setDraftsWanted(state_->draftsWanted);
     SHOAL_TRY_ASSIGN(loaded->shadows, frame::Shadows::create(state_->device, loaded->shadowSetup));
     SHOAL_TRY(addInstances(*loaded));
+    if (state_->draftsWanted) {
+        const Bounds& focus = loaded->content.focus.empty() ? loaded->content.bounds : loaded->content.focus;
+        SHOAL_TRY_ASSIGN(loaded->draft, DraftShadows::create(state_->device, loaded->shadowSetup, focus));
+    }
     light::Environment black;
     black.radiance = Image(8, 4, 3);
     SHOAL_TRY(state_->lighting.setEnvironment(loaded->content.environment ? *loaded->content.environment : black));
@@ -376,6 +399,7 @@ void Pipeline::blit(std::uint32_t framebuffer, int width, int height) {
 }
 
 light::View Pipeline::view() const { return state_->view; }
+void Pipeline::setDraftsWanted(bool wanted) { state_->draftsWanted = wanted; }
 void Pipeline::setTiming(bool on) { state_->timer.setEnabled(on); }
 
 frame::Stats Pipeline::stats() const {

@@ -40,4 +40,18 @@ void blitPictures(Viewer& v) {
     if (split < 1) blitPart(v.comparison->picture.pipeline().display(), v.viewport, height, split, 1);
 }
 
+ByteImage readWindow(const gl::Window& window) {
+    ByteImage picture(window.width(), window.height());
+    std::vector<std::uint8_t> rows(picture.pixels.size());
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
+    glReadBuffer(GL_BACK);
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glReadPixels(0, 0, picture.width, picture.height, GL_RGBA, GL_UNSIGNED_BYTE, rows.data());
+    const auto rowBytes = std::ptrdiff_t(picture.width) * 4;
+    for (int y = 0; y < picture.height; ++y)
+        std::copy_n(rows.begin() + rowBytes * y, rowBytes,
+                    picture.pixels.begin() + rowBytes * (picture.height - 1 - y));
+    return picture;
+}
+
 }  // namespace shoal::viewer

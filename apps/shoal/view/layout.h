@@ -16,5 +16,7 @@ void drawDialogs(Viewer& viewer);        // dialogs.cpp
 
 // Copies pictures and buffers into the window's framebuffer (blit.cpp).
 void blitPictures(Viewer& viewer);
+// What was drawn into the window and is not shown yet.
+ByteImage readWindow(const gl::Window& window);
 
 }  // namespace shoal::viewer

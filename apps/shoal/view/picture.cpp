@@ -50,6 +50,7 @@ void ScaleController::addFrame(double ms) {
 Result<Picture> Picture::create(gl::Device& device) {
     Picture picture;
     SHOAL_TRY_ASSIGN(picture.pipeline_, pipeline::Pipeline::create(device));
+    picture.pipeline_->setDraftsWanted(true);
     return picture;
 }
 
@@ -109,6 +110,7 @@ Result<void> Picture::draw(const Wanted& wanted) {
     const bool progressive = request.antialiasing == "supersample" && request.samples > 1;
     if (wanted.moving) {
         request.antialiasing = "none";
+        request.draft = true;
         samplesWanted_ = 1;
     } else if (progressive) {
         samplesWanted_ = request.samples;

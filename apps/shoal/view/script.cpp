@@ -9,6 +9,10 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include <shoal/io/image.h>
+
+#include "view/layout.h"
+
 namespace shoal::viewer {
 
 namespace {
@@ -50,6 +54,17 @@ int keyNamed(const std::string& name) {
 
 int buttonNamed(const std::string& name) {
     return name == "right" ? GLFW_MOUSE_BUTTON_RIGHT : name == "middle" ? GLFW_MOUSE_BUTTON_MIDDLE : GLFW_MOUSE_BUTTON_LEFT;
+}
+
+bool differs(const ByteImage& a, const ByteImage& b, const Area& where) {
+    if (a.width != b.width || a.height != b.height) return true;
+    for (int y = where.y; y < std::min(where.y + where.height, a.height); ++y) {
+        const auto row = (std::ptrdiff_t(y) * a.width + where.x) * 4;
+        if (!std::equal(a.pixels.begin() + row, a.pixels.begin() + row + std::ptrdiff_t(where.width) * 4,
+                        b.pixels.begin() + row))
+            return true;
+    }
+    return false;
 }
 
 void printState(const Viewer& v, const std::string& label) {
@@ -108,6 +123,25 @@ Result<void> Script::step(Viewer& viewer, std::vector<Event>& events) {
     const Action action = std::move(actions_.front());
     actions_.pop_front();
     action(viewer, events);
+    return {};
+}
+
+Result<void> Script::drawn(const Viewer& viewer) {
+    if (const std::string file = std::exchange(grab_, ""); !file.empty())
+        SHOAL_TRY(io::writeByteImage(file, readWindow(viewer.window)));
+    if (latencyTurns_ >= 0 && before_) {
+        ++latencyTurns_;
+        if (differs(readWindow(viewer.window), *before_, viewer.viewport)) {
+            std::printf("latency: frames=%d\n", latencyTurns_);
+            latencyTurns_ = -1;
+            before_.reset();
+        }
+    }
+    const auto now = std::chrono::steady_clock::now();
+    if (timing_)
+        std::printf("turn %.3f %g\n", std::chrono::duration<double, std::milli>(now - turnStart_).count(),
+                    double(viewer.picture.shownScale()));
+    turnStart_ = now;
     return {};
 }
 
@@ -214,6 +248,25 @@ Result<void> Script::start(Viewer& viewer, const std::vector<std::string>& words
         std::printf("command: %s\n", viewer.command().c_str());
     } else if (verb == "print") {
         printState(viewer, rest.empty() ? "state" : rest);
+    } else if (verb == "realtime") {
+        realTime_ = true;
+    } else if (verb == "times") {  // times on|off: the milliseconds of every turn
+        timing_ = word(1) == "on";
+    } else if (verb == "mark") {
+        const auto now = std::chrono::steady_clock::now().time_since_epoch();
+        std::printf("mark %s %.3f\n", rest.c_str(), std::chrono::duration<double, std::milli>(now).count());
+    } else if (verb == "latency") {  // latency DX DY: turns until a drag is seen; the view is at rest before
+        later([this](Viewer& v, auto&) { before_ = readWindow(v.window), latencyTurns_ = -1; });
+        later([x = number(1), y = number(2), this](Viewer& v, auto& events) {
+            events.push_back(moveTo(v.viewport.x + 0.5 * v.viewport.width, v.viewport.y + 0.5 * v.viewport.height));
+            events.push_back(buttonEvent(0, true, 0));
+            events.push_back(moveTo(v.viewport.x + 0.5 * v.viewport.width + x,
+                                    v.viewport.y + 0.5 * v.viewport.height + y));
+            latencyTurns_ = 0;
+        });
+        until_ = nullptr;
+        for (int i = 0; i < 10; ++i) later([](Viewer&, auto&) {});
+        later([](Viewer&, auto& events) { events.push_back(buttonEvent(0, false, 0)); });
     } else if (verb == "quit") {
         next_ = lines_.size();
     } else {

@@ -2,7 +2,9 @@
 // as a hand's. `shoal view SCENE --script FILE`; docs/viewer.md lists the commands.
 #pragma once
 
+#include <chrono>
 #include <deque>
+#include <optional>
 #include <functional>
 #include <string>
 #include <vector>
@@ -18,8 +20,10 @@ public:
     // Called once a turn, before the events are handled; appends events and calls the viewer. After the last line the
     // viewer quits. A line that cannot be done is an error with its number.
     Result<void> step(Viewer& viewer, std::vector<Event>& events);
-    // Picture of the whole window that is to be written after this turn; "" for none.
-    std::string takeGrab() { return std::exchange(grab_, ""); }
+    // Called when a turn is drawn and not yet shown: pictures of the window, measurements.
+    Result<void> drawn(const Viewer& viewer);
+    // Turns last as long as they take; else each is a thirtieth of a second to the viewer.
+    bool realTime() const { return realTime_; }
 
 private:
     using Action = std::function<void(Viewer&, std::vector<Event>&)>;
@@ -33,6 +37,10 @@ private:
     std::deque<Action> actions_;  // one a turn
     std::function<bool(const Viewer&)> until_;
     int waited_ = 0;
+    bool realTime_ = false, timing_ = false;
+    std::optional<ByteImage> before_;  // latency: the window before the input
+    int latencyTurns_ = -1;
+    std::chrono::steady_clock::time_point turnStart_;
 };
 
 }  // namespace shoal::viewer

@@ -10,8 +10,6 @@
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
 
-#include <shoal/io/image.h>
-
 #include "verbs.h"
 #include "view/layout.h"
 #include "view/script.h"
@@ -69,19 +67,6 @@ float screenScale(GLFWwindow* window, float asked) {
     return std::clamp(std::round(4 * x) / 4, 1.0f, 4.0f);
 }
 
-Result<void> writeWindow(const gl::Window& window, const std::string& file) {
-    ByteImage picture(window.width(), window.height());
-    std::vector<std::uint8_t> rows(picture.pixels.size());
-    glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
-    glReadBuffer(GL_BACK);
-    glPixelStorei(GL_PACK_ALIGNMENT, 1);
-    glReadPixels(0, 0, picture.width, picture.height, GL_RGBA, GL_UNSIGNED_BYTE, rows.data());
-    const auto rowBytes = std::ptrdiff_t(picture.width) * 4;
-    for (int y = 0; y < picture.height; ++y)
-        std::copy_n(rows.begin() + rowBytes * y, rowBytes, picture.pixels.begin() + rowBytes * (picture.height - 1 - y));
-    return io::writeByteImage(file, picture);
-}
-
 // One turn's drawing: panels laid out first, for they say how large the picture is.
 void drawTurn(Viewer& viewer, double seconds) {
     ImGuiIO& io = ImGui::GetIO();
@@ -123,13 +108,12 @@ Result<void> loop(Viewer& viewer, std::vector<Event>& events, std::optional<Scri
         for (const Event& event : now) feedImGui(event);
         for (const Event& event : now) viewer.handle(event);
         const auto time = std::chrono::steady_clock::now();
-        const double seconds = script ? kScriptedTurn : std::chrono::duration<double>(time - before).count();
+        const double seconds = script && !script->realTime() ? kScriptedTurn : std::chrono::duration<double>(time - before).count();
         before = time;
         if (viewer.window.width() < 1 || viewer.window.height() < 1) continue;  // minimised
         const auto start = std::chrono::steady_clock::now();
         drawTurn(viewer, seconds);
-        if (script)
-            if (const std::string grab = script->takeGrab(); !grab.empty()) SHOAL_TRY(writeWindow(viewer.window, grab));
+        if (script) SHOAL_TRY(script->drawn(viewer));
         viewer.window.swap();
         if (viewer.interacting())
             viewer.scale.addFrame(

@@ -33,6 +33,7 @@ struct FrameRequest {
     // with sampleBegin > 0 goes on where the call before ended and must differ from it in nothing else; after the last
     // one the picture has the bits of a single call.
     int sampleBegin = 0, sampleEnd = 0;
+    bool draft = false;  // quicker: leaves out detail of a pixel or two (setDraftsWanted comes first)
     std::uint32_t seed = 1;  // shifts where samples fall in the pixel and the noise of ambient occlusion
     std::optional<light::Camera> camera = {};  // instead of the scene's
 };
@@ -85,6 +86,8 @@ public:
 
     light::View view() const;  // of the last frame, without jitter
     void setTiming(bool on);
+    // Scenes set from now on keep what drafts are drawn from.
+    void setDraftsWanted(bool wanted);
     frame::Stats stats() const;  // passes of the last frame, bytes held, triangles, draws
 
 private:
