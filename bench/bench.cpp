@@ -1,6 +1,7 @@
 // shoal bench: picks rows, runs them, prints and saves them.
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -8,6 +9,7 @@
 #include <shoal/core/params.h>
 #include <shoal/gl/device.h>
 #include <shoal/io/file.h>
+#include <shoal/water/paper.h>
 #include <shoal_build_info.h>
 
 #include "bench/harness.h"
@@ -17,9 +19,12 @@ namespace shoal::bench {
 
 const std::vector<Benchmark>& benchmarks() {
     static const std::vector<Benchmark> all = [] {
-        std::vector<Benchmark> rows = frameBenchmarks();
-        for (const auto& more : {viewBenchmarks()}) rows.insert(rows.end(), more.begin(), more.end());
-        return rows;
+        std::vector<Benchmark> every;
+        for (const auto& some :
+             {frameBenchmarks(), waterTruthBenchmarks(), waterShaftBenchmarks(), waterSpeedBenchmarks(),
+              viewBenchmarks()})
+            every.insert(every.end(), some.begin(), some.end());
+        return every;
     }();
     return all;
 }
@@ -43,6 +48,19 @@ Result<std::vector<Benchmark>> picked(const std::vector<std::string>& names) {
         }
         if (!found) return usageError(unknownWord("benchmark", name, known));
     }
+    return chosen;
+}
+
+// --config keeps one row of those picked: that of a configuration of the paper, "paper-a" is water.paper_a.
+Result<std::vector<Benchmark>> withConfig(std::vector<Benchmark> chosen, const std::string& config) {
+    if (config.empty()) return chosen;
+    std::vector<std::string> known;
+    for (const water::PaperConfig& paper : water::paperConfigs()) known.push_back(paper.name);
+    if (!water::findPaperConfig(config)) return usageError("--config: " + unknownWord("configuration", config, known));
+    std::string id = "water." + config;
+    std::replace(id.begin(), id.end(), '-', '_');
+    std::erase_if(chosen, [&](const Benchmark& benchmark) { return benchmark.id != id; });
+    if (chosen.empty()) return usageError("--config " + config + " goes with the rows of water");
     return chosen;
 }
 
@@ -110,7 +128,8 @@ Result<Settings> settingsOf(const app::BenchOptions& o) {
 }
 
 Result<void> run(const app::BenchOptions& o) {
-    SHOAL_TRY_ASSIGN(const std::vector<Benchmark> chosen, picked(o.names));
+    SHOAL_TRY_ASSIGN(std::vector<Benchmark> wanted, picked(o.names));
+    SHOAL_TRY_ASSIGN(const std::vector<Benchmark> chosen, withConfig(std::move(wanted), o.config));
     if (o.list) {
         for (const Benchmark& benchmark : chosen) std::printf("%-28s %s\n", benchmark.id, benchmark.sentence);
         return {};

@@ -24,4 +24,6 @@ if(TARGET shoal_tool)
     install(TARGETS shoal_tool RUNTIME COMPONENT tool)
 endif()
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/scenes" DESTINATION "${CMAKE_INSTALL_DATADIR}/shoal" COMPONENT tool OPTIONAL)
+# What `shoal bench` measures errors on.
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/tests/scenes/" DESTINATION "${CMAKE_INSTALL_DATADIR}/shoal/checks" COMPONENT tool OPTIONAL)
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT tool)

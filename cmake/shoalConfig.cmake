@@ -19,6 +19,7 @@ endforeach()
 
 find_dependency(TBB)
 find_dependency(fmt)
+find_dependency(kissfft CONFIG COMPONENTS SHARED)
 find_dependency(assimp)
 find_dependency(OpenEXR 3.1)
 find_dependency(ZLIB)

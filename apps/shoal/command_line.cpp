@@ -156,6 +156,40 @@ int completion(const std::string& shell, const CLI::App& app) {
     return kDone;
 }
 
+void addReference(CLI::App& app, ReferenceVerbOptions& o) {
+    CLI::App* verb = app.add_subcommand(
+        "reference", "Computes the slow double-precision answer that the real-time pictures are checked against");
+    verb->add_option("scene", o.scene, "scene file (.toml) with [water]")->required();
+    verb->add_option("-o,--output", o.output, "layers caustics and inscatter, 32-bit (.exr)")->required();
+    verb->add_option("--aov", o.aovs,
+                     "caustics (W/m2 that refracted light puts on the first surface), inscatter (W/(m2 sr) scattered "
+                     "once towards the eye), or both, separated by commas; default both");
+    verb->add_option("--rays", o.rays,
+                     "from each light; default 64000000. Noise falls with its root; inscatter takes 30 bytes a ray")
+        ->check(CLI::Range(1LL, 100'000'000'000LL));
+    verb->add_option("--steps", o.steps, "inscatter: points along a view ray; default 512")
+        ->check(CLI::Range(1, 1'000'000));
+    verb->add_option("--sub-pixels", o.subPixels, "inscatter: view rays a pixel's side; default 1")
+        ->check(CLI::Range(1, 64));
+    verb->add_option("--size", o.size, "WIDTHxHEIGHT in pixels; default: the scene's, 1280x720");
+    verb->add_option("--time", o.time, "scene time in seconds");
+    verb->add_option("--set", o.sets, "key=value: overrides a value of the scene; may be repeated")
+        ->take_all()
+        ->expected(1);
+    verb->add_option("--seed", o.seed, "seed of every random choice; default: the scene's");
+    verb->add_option("--threads", o.threads, "threads, 0 for all cores; the picture is the same for any")
+        ->check(CLI::Range(0, 1024));
+    verb->add_flag("--quiet", o.quiet, "prints nothing but errors");
+    verb->footer(
+        "\nThe surface of the water is not seen: both layers are along straight lines from the eye, as the AOVs of\n"
+        "`shoal render` with [water] surfaceVisible = false. Not in it: light of the sky, light scattered twice, "
+        "light\n"
+        "that the surface reflects, holes of masked materials.\n"
+        "\nExample:\n"
+        "  shoal reference scenes/tank.toml -o tank.exr --size 160x90 --rays 1000000 --steps 64 --set "
+        "water.level=1.4\n");
+}
+
 void addDemo(CLI::App& app, DemoOptions& o) {
     CLI::App* verb =
         app.add_subcommand("demo", "Draws the shipped scenes and prints what was drawn, how fast and where");
@@ -175,6 +209,8 @@ void addBench(CLI::App& app, BenchOptions& o) {
     verb->add_option("--repetitions", o.repetitions,
                      "interleaved repetitions, at least 7 for a figure that is quoted; default 7")
         ->check(CLI::Range(1, 1000));
+    verb->add_option("--config", o.config,
+                     "water: only the row of this configuration of the paper: paper-a, paper-b, paper-c, paper-d");
     verb->add_option("--data", o.dataDir, "folder with models to measure on; default: SHOAL_DATA, else ../shared/data");
     verb->add_option("--device", o.device, kDeviceHelp);
     verb->footer("\nExample:\n  shoal bench frame.startup_ms --repetitions 1\n");
@@ -232,12 +268,14 @@ int runCommandLine(int argc, char** argv) {
     ViewOptions viewOptions;
     InfoOptions infoOptions;
     CompareOptions compareOptions;
+    ReferenceVerbOptions referenceOptions;
     DemoOptions demoOptions;
     BenchOptions benchOptions;
     addRender(app, renderOptions);
     addView(app, viewOptions);
     addInfo(app, infoOptions);
     addCompare(app, compareOptions);
+    addReference(app, referenceOptions);
     addDemo(app, demoOptions);
     addBench(app, benchOptions);
     std::string shell;
@@ -261,6 +299,7 @@ int runCommandLine(int argc, char** argv) {
     if (verb == "view") return view(viewOptions);
     if (verb == "info") return info(infoOptions);
     if (verb == "compare") return compare(compareOptions);
+    if (verb == "reference") return reference(referenceOptions);
     if (verb == "demo") return demo(demoOptions);
     if (verb == "bench") return bench(benchOptions);
     if (verb == "completion") return completion(shell, app);

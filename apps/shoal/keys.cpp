@@ -5,6 +5,7 @@
 #include <shoal/frame/lighting.h>
 #include <shoal/frame/post.h>
 #include <shoal/frame/shadows.h>
+#include <shoal/pipeline/water.h>
 #include <shoal/scene/scene.h>
 #include <shoal/scene/shapes.h>
 
@@ -42,6 +43,15 @@ int printKeys() {
     printTable("[shadows]", describe(frame::ShadowParams{}));
     printTable("[lighting]", describe(frame::LightingParams{}));
     printTable("[post]", describe(frame::PostParams{}));
+    printTable("[water]: the body", describe(water::BodyParams{}));
+    printTable("[water]: its optics", describe(water::OpticsParams{}));
+    printTable("[water] waves = { ... }", describe(water::WaveParams{}));
+    printTable("[water] waves = { components = [ { ... }, ... ] }", describe(water::WaveComponentParams{}));
+    printTable("[water.caustics]: photons", describe(water::PhotonParams{}));
+    printTable("[water.caustics]: maps", describe(water::LightViewParams{}));
+    printTable("[water.shafts]", describe(water::ShaftParams{}));
+    printTable("[water.surface]", describe(water::SurfaceParams{}));
+    printTable("[water.paper]", describe(water::PaperParams{}));
     for (const std::string& kind : scene::shapeNames())
         printTable("[[shape]] kind = \"" + kind + "\"", scene::describeShape(kind));
     return kDone;

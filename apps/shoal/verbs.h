@@ -53,6 +53,18 @@ struct CompareOptions {
 };
 int compare(const CompareOptions& options);
 
+struct ReferenceVerbOptions {
+    std::string scene, output;
+    std::string size, aovs = "caustics,inscatter";
+    std::optional<double> time;
+    std::optional<unsigned> seed;
+    std::vector<std::string> sets;
+    long long rays = 64'000'000;
+    int steps = 512, subPixels = 1, threads = 0;
+    bool quiet = false;
+};
+int reference(const ReferenceVerbOptions& options);
+
 struct DemoOptions {
     std::string folder = "shoal_demo", device = "auto", size;
     bool film = false;
@@ -62,6 +74,7 @@ int demo(const DemoOptions& options);
 struct BenchOptions {
     std::vector<std::string> names;
     std::string jsonFile, device = "auto", dataDir;
+    std::string config;  // one of the paper's configurations, "paper-a" to "paper-d"; "" for all rows
     bool peers = false, list = false;
     int repetitions = 7;
 };

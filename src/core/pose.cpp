@@ -182,6 +182,19 @@ void poseModel(const Model& model, int clip, float time, bool loop, Pose& pose) 
     }
 }
 
+std::vector<Vec3> posedPositions(const Model& model, const Pose& pose, int node, const Primitive& primitive) {
+    SHOAL_ASSERT_EQ(pose.modelFromNode.size(), model.nodes.size());
+    const std::size_t n = std::size_t(node);
+    const int skin = primitive.joints.empty() ? -1 : model.nodes[n].skin;
+    std::vector<Vec3> positions(primitive.vertexCount());
+    parallelFor(positions.size(), kVertexGrain, [&](std::size_t i) {
+        const Vec3 p = morphed(primitive, pose.morphWeights[n], i);
+        positions[i] = skin >= 0 ? skinned(primitive, pose.modelFromBind[std::size_t(skin)], i, p)
+                                 : transformPoint(pose.modelFromNode[n], p);
+    });
+    return positions;
+}
+
 Bounds posedBounds(const Model& model, const Pose& pose) {
     SHOAL_ASSERT_EQ(pose.modelFromNode.size(), model.nodes.size());
     Bounds all;

@@ -6,6 +6,8 @@
 
 #include <shoal/core/parallel.h>
 
+#include "pipeline/water_pass.h"
+
 namespace shoal::pipeline {
 
 namespace {
@@ -21,6 +23,12 @@ constexpr AovInfo kAovs[] = {
     {"direct", "RGB", "W/(m2 sr)", "radiance by the sun and lamps alone"},
     {"shadow", "V", "", "visible fraction of the sun, 1 lit"},
     {"occlusion", "V", "", "ambient occlusion, 1 open"},
+    {"caustics", "RGB", "W/m2",
+     "irradiance that light bent by the water surface puts on the first opaque surface; above the water what the "
+     "surface reflects there"},
+    {"inscatter", "RGB", "W/(m2 sr)", "radiance that water scatters into the pixel's path"},
+    {"transmittance", "RGB", "", "fraction of the first opaque surface's radiance that water lets through"},
+    {"waterDepth", "Z", "m", "water above the first opaque surface, 0 where there is none"},
 };
 
 // [Cigolle et al. 2014] octahedral map back to a unit vector; e in [0, 1]^2.
@@ -49,6 +57,21 @@ std::vector<std::string> channelNames(const AovInfo& info) {
     return names;
 }
 
+// Water's own buffers; without water there is no light by it and nothing is dimmed.
+Result<Image> readWaterSource(const AovSources& s, const std::string& name) {
+    const int channels = name == "waterDepth" ? 1 : 3;
+    if (s.water) {
+        const gl::TextureView from = name == "caustics"        ? s.water->caustics()
+                                     : name == "inscatter"     ? s.water->inscatter()
+                                     : name == "transmittance" ? s.water->transmittance()
+                                                               : s.water->waterDepth();
+        if (from) return frame::readImage(s.device, from, channels);
+    }
+    Image image(s.targets.gbuffer().width, s.targets.gbuffer().height, channels);
+    std::fill(image.pixels.begin(), image.pixels.end(), name == "transmittance" ? 1.0f : 0.0f);
+    return image;
+}
+
 Result<Image> readSource(const AovSources& s, const std::string& name) {
     const frame::GBuffer& g = s.targets.gbuffer();
     const auto read = [&](const gl::TextureView& texture, int channels) {
@@ -60,6 +83,8 @@ Result<Image> readSource(const AovSources& s, const std::string& name) {
     if (name == "direct") return read(s.lighting.direct(), 3);
     if (name == "shadow") return read(s.lighting.shadow(), 1);
     if (name == "occlusion") return read(s.lighting.occlusion(), 1);
+    if (name == "caustics" || name == "inscatter" || name == "transmittance" || name == "waterDepth")
+        return readWaterSource(s, name);
     SHOAL_TRY_ASSIGN(const Image depth, read(g.viewDepth, 1));
     if (name == "albedo") {
         SHOAL_TRY_ASSIGN(const Image coded, read(g.albedo, 4));

@@ -8,11 +8,14 @@
 
 namespace shoal::pipeline {
 
+class WaterPass;
+
 struct AovSources {
     gl::Device& device;
     const frame::Targets& targets;
     const frame::Lighting& lighting;
     const frame::Post& post;
+    WaterPass* water;  // null: the scene has none
 };
 
 // The AOV called `name` as a layer; `name` is one of aovs().

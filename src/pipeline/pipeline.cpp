@@ -14,6 +14,7 @@
 
 #include "pipeline/aov.h"
 #include "pipeline/draft_shadows.h"
+#include "pipeline/water_pass.h"
 
 namespace shoal::pipeline {
 
@@ -37,20 +38,28 @@ struct Loaded {
     bool drewDraft = false;             // the last frame was one
     std::vector<frame::InstanceId> instances;  // one a content instance
     bool moves = false;                        // whether any instance walks
+    std::unique_ptr<WaterPass> water;          // null: none
 };
 
 // The tables of techniques that this version does not draw yet.
 Result<void> refuseUnbuilt(const scene::Scene& scene) {
     for (const scene::RawTable& table : scene.tables) {
         const std::string root = table.name.substr(0, table.name.find('.'));
-        if (root == "water" || root == "crowd" || root == "fluid" || root == "volume")
+        if (root == "crowd" || root == "fluid" || root == "volume")
             return badInput(table.place.describe() + ": [" + table.name + "]: this version of shoal has no " + root +
                             " yet");
-        if (root != table.name)
+        if (root != table.name && root != "water")
             return badInput(table.place.describe() + ": [" + table.name +
                             "]: unknown table, expected plain values in [" + root + "]");
     }
     return {};
+}
+
+// The water's own checks know fields, not lines.
+Error atWater(const scene::Scene& scene, const Error& error) {
+    const scene::RawTable* table = scene.table("water");
+    if (error.kind != ErrorKind::badInput || !table) return error;
+    return {error.kind, table->place.describe() + ": water: " + error.message};
 }
 
 template <class Params>
@@ -140,6 +149,7 @@ struct Pipeline::State {
     frame::Shadows& shadowsOf(const frame::Context& context);
     void drawSample(const frame::Context& context);
     frame::Lights lights() const;
+    WaterScene waterScene(const frame::Context& context);
     bool wantsTerms() const;
 };
 
@@ -205,12 +215,20 @@ void Pipeline::State::drawNeededViews(const frame::Context& context) {
 }
 
 frame::Lights Pipeline::State::lights() const {
-    return {loaded->content.sun ? &*loaded->content.sun : nullptr, loaded->content.lights};
+    frame::Lights lights{loaded->content.sun ? &*loaded->content.sun : nullptr, loaded->content.lights};
+    if (loaded->water) lights.medium = loaded->water->medium();
+    return lights;
+}
+
+WaterScene Pipeline::State::waterScene(const frame::Context& context) {
+    return {*loaded->geometry, lighting, *loaded->shadows, loaded->lightingParams, lights()};
 }
 
 bool Pipeline::State::wantsTerms() const {
     for (const std::string& name : aovNames)
-        if (name == "direct" || name == "shadow" || name == "occlusion") return true;
+        if (name == "direct" || name == "shadow" || name == "occlusion" || name == "transmittance" ||
+            name == "waterDepth")
+            return true;
     return false;
 }
 
@@ -219,8 +237,11 @@ void Pipeline::State::drawSample(const frame::Context& context) {
     targets->beginSurfaces();
     geometry.drawSurfaces(context, targets->gbuffer());
     targets->finishSurfaces(context);
+    frame::LightOverrides overrides;
+    if (loaded->water) overrides = loaded->water->light(context, waterScene(context), *targets);
     lighting.prepare(context, loaded->lightingParams, lights(), *targets);
-    lighting.shade(context, loaded->lightingParams, shadowsOf(context), {}, *targets);
+    lighting.shade(context, loaded->lightingParams, shadowsOf(context), overrides, *targets);
+    if (loaded->water) loaded->water->draw(context, waterScene(context), *targets);
     if (!geometry.hasTransparent()) return;
     {
         gl::PassScope pass(&timer, "copy opaque");
@@ -262,6 +283,13 @@ Result<void> Pipeline::setScene(const scene::Scene& scene, scene::Content conten
         const Bounds& focus = loaded->content.focus.empty() ? loaded->content.bounds : loaded->content.focus;
         SHOAL_TRY_ASSIGN(loaded->draft, DraftShadows::create(state_->device, loaded->shadowSetup, focus));
     }
+    SHOAL_TRY_ASSIGN(std::optional<WaterSpec> water, readWater(scene));
+    if (water) {
+        const Vec3 sky = skyIrradiance(loaded->content, loaded->lightingParams.environmentIntensity);
+        auto made = WaterPass::create(state_->device, std::move(*water), sky);
+        if (!made) return atWater(scene, made.error());
+        loaded->water = std::move(*made);
+    }
     light::Environment black;
     black.radiance = Image(8, 4, 3);
     SHOAL_TRY(state_->lighting.setEnvironment(loaded->content.environment ? *loaded->content.environment : black));
@@ -280,14 +308,29 @@ Result<void> Pipeline::updateScene(const scene::Scene& scene) {
     SHOAL_TRY(bindNamed(scene, "shadows", shadows));
     SHOAL_TRY(bindNamed(scene, "lighting", lighting));
     SHOAL_TRY(bindNamed(scene, "post", post));
-    if (!scene::sameLights(scene, loaded.scene)) {
+    SHOAL_TRY_ASSIGN(std::optional<WaterSpec> water, readWater(scene));
+    const bool relit = !scene::sameLights(scene, loaded.scene);
+    const auto relight = [&](const scene::Scene& by) -> Result<void> {
         scene::Content& content = loaded.content;
-        SHOAL_TRY(scene::reloadLights(scene, content));
+        SHOAL_TRY(scene::reloadLights(by, content));
         light::Environment black;
         black.radiance = Image(8, 4, 3);
-        SHOAL_TRY(state_->lighting.setEnvironment(content.environment ? *content.environment : black));
-    }
+        return state_->lighting.setEnvironment(content.environment ? *content.environment : black);
+    };
+    if (relit) SHOAL_TRY(relight(scene));
     lighting.environmentIntensity *= scene.environment.intensity;
+    const bool skyChanged = relit || lighting.environmentIntensity != loaded.lightingParams.environmentIntensity;
+    if (water && (skyChanged || !scene::sameTables(scene, loaded.scene, "water"))) {
+        const Vec3 sky = skyIrradiance(loaded.content, lighting.environmentIntensity);
+        auto made = WaterPass::create(state_->device, std::move(*water), sky);
+        if (!made) {
+            if (relit) SHOAL_TRY(relight(loaded.scene));
+            return atWater(scene, made.error());
+        }
+        loaded.water = std::move(*made);
+    } else if (!water) {
+        loaded.water.reset();
+    }
     lighting.sunDisc = lighting.sunDisc && loaded.content.sunInBackground;
     loaded.shadowParams = shadows;
     loaded.lightingParams = lighting;
@@ -336,6 +379,11 @@ Result<void> Pipeline::render(const FrameRequest& request) {
         s.drawNeededViews(context);
     }
     s.lighting.setTermsWanted(false);
+    if (s.loaded->water) {
+        SHOAL_TRY(s.loaded->water->resize(request.width, request.height));
+        s.loaded->water->setTermsWanted(false);
+        if (!goesOn) s.loaded->water->renderFrame(context, s.waterScene(context));
+    }
     const frame::PostParams& look = s.loaded->postParams;
     s.post.setExpectedExposure(look.exposureMode == "fixed" ? std::exp2(look.exposureEv) : 0);
     if (!temporal && !goesOn) s.post.beginAccumulation(request.width, request.height);
@@ -360,6 +408,7 @@ Result<void> Pipeline::render(const FrameRequest& request) {
         context.jitterPx = {};
         context.sampleIndex = firstSample;
         s.lighting.setTermsWanted(s.wantsTerms());
+        if (s.loaded->water) s.loaded->water->setTermsWanted(s.wantsTerms());
         s.drawSample(context);
     }
     return {};
@@ -379,10 +428,11 @@ void Pipeline::setAovs(std::span<const std::string> names) { state_->aovNames.as
 
 Result<std::vector<Layer>> Pipeline::readAovs() {
     SHOAL_ASSERT_MSG(state_->targets, "render comes before readAovs");
+    WaterPass* water = state_->loaded ? state_->loaded->water.get() : nullptr;
     std::vector<Layer> layers;
     for (const std::string& name : state_->aovNames) {
         SHOAL_TRY_ASSIGN(Layer layer,
-                         readAov({state_->device, *state_->targets, state_->lighting, state_->post}, name));
+                         readAov({state_->device, *state_->targets, state_->lighting, state_->post, water}, name));
         layers.push_back(std::move(layer));
     }
     return layers;

@@ -302,6 +302,23 @@ bool sameLights(const Scene& a, const Scene& b) {
     return true;
 }
 
+bool sameTables(const Scene& a, const Scene& b, std::string_view root) {
+    const auto wordsOf = [&](const Scene& scene) {
+        std::string all;
+        for (const RawTable& table : scene.tables) {
+            if (table.name.substr(0, table.name.find('.')) != root) continue;
+            all += "[" + table.name + "]\n";
+            for (const RawEntry& entry : table.entries) {
+                all += entry.key + "=" + (entry.value.boolean ? "true" : "") + entry.value.text;
+                for (const double number : entry.value.numbers) all += " " + detail::showField(float(number));
+                all += "\n";
+            }
+        }
+        return all;
+    };
+    return wordsOf(a) == wordsOf(b);
+}
+
 Result<void> reloadLights(const Scene& scene, Content& content) {
     Content lit;
     SHOAL_TRY(makeLight(scene, lit));

@@ -72,13 +72,16 @@ Result<Tree> convertArray(const toml::array& array, Tree tree, int level) {
 
 Result<Tree> convertTable(const toml::table& table, Tree tree, int level) {
     tree.kind = Tree::Kind::table;
+    // The library sorts by name; a person's order is that of the places.
+    std::vector<std::pair<std::pair<int, int>, TreeMember>> placed;
     for (const auto& [key, value] : table) {
         SHOAL_TRY_ASSIGN(Tree child, convert(value, tree.place.file, level + 1));
-        child.place.line = int(key.source().begin.line);
-        tree.members.push_back({std::string(key.str()), std::move(child)});
+        const toml::source_position at = key.source().begin;
+        child.place.line = int(at.line);
+        placed.push_back({{int(at.line), int(at.column)}, {std::string(key.str()), std::move(child)}});
     }
-    std::stable_sort(tree.members.begin(), tree.members.end(),
-                     [](const auto& a, const auto& b) { return a.tree.place.line < b.tree.place.line; });
+    std::stable_sort(placed.begin(), placed.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    for (auto& [place, member] : placed) tree.members.push_back(std::move(member));
     return tree;
 }
 

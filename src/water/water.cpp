@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "frame/bindings.shared.h"
+#include "frame/light_block.h"
+
 namespace shoal::water {
 
 struct Water::State {
@@ -14,6 +17,7 @@ struct Water::State {
     Photons photons;
     Shafts shafts;
     Surface surface;
+    gl::BlockBuffer<frame::LightBlock> eyeBlock;  // pixel rays, where no frame::Lighting has bound them
 };
 
 Water::Water(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -28,12 +32,14 @@ Result<Water> Water::create(gl::Device& device, WaterSetup setup) {
     SHOAL_TRY_ASSIGN(LightViews views, LightViews::create(device, setup.lightViews));
     SHOAL_TRY_ASSIGN(Photons photons,
                      Photons::create(device, {setup.lightViews.resolution, setup.lightViews.maxSlots}));
+    setup.shafts.viewResolution = setup.lightViews.resolution;
     SHOAL_TRY_ASSIGN(Shafts shafts, Shafts::create(device, setup.shafts));
     SHOAL_TRY_ASSIGN(Surface surface, Surface::create(device));
     SHOAL_TRY(gpuWaves.update(waves));
-    return Water(
-        std::unique_ptr<State>(new State{device, setup.body, optics, std::move(waves), std::move(gpuWaves),
-                                         std::move(views), std::move(photons), std::move(shafts), std::move(surface)}));
+    auto eyeBlock = gl::BlockBuffer<frame::LightBlock>::create(device, "water eye");
+    return Water(std::unique_ptr<State>(new State{device, setup.body, optics, std::move(waves), std::move(gpuWaves),
+                                                  std::move(views), std::move(photons), std::move(shafts),
+                                                  std::move(surface), std::move(eyeBlock)}));
 }
 
 Body Water::body() const {
@@ -76,6 +82,8 @@ void Water::light(const frame::Context& context, const BodyLights& lights, const
 void Water::scatter(const frame::Context& context, const WaterParams& params, const BodyLights& lights,
                     gl::TextureView viewDepth, gl::TextureView depth, gl::TextureView inscatter) {
     State& s = *state_;
+    s.eyeBlock.write(frame::makeLightBlock(context, {}, {}, {}));
+    s.eyeBlock.bindUniform(SHOAL_BLOCK_LIGHT);
     s.surface.trace(context, params.surface, body(), viewDepth, depth);
     if (inscatter && scatters(params))
         s.shafts.march(context, params.shafts, body(), lights, s.views, s.surface.paths(), viewDepth, {inscatter});

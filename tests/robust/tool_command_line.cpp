@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::vector<std::string> kVerbs = {"render", "info", "compare", "demo", "bench"};
+const std::vector<std::string> kVerbs = {"render", "info", "compare", "reference", "demo", "bench"};
 
 const std::string kScene =
     "[camera]\nposition = [3, 2, 5]\ntarget = [0, 0.5, 0]\n[render]\nwidth = 64\nheight = 36\nsamples = 2\nfps = 10\n"
@@ -112,7 +112,8 @@ TEST_P(ToolExamples, WorkAsPrinted) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, ToolExamples, testing::Values("", "render", "info", "compare", "demo", "bench"),
+INSTANTIATE_TEST_SUITE_P(All, ToolExamples,
+                         testing::Values("", "render", "info", "compare", "reference", "demo", "bench"),
                          [](const testing::TestParamInfo<std::string>& info) {
                              return info.param.empty() ? "shoal" : info.param;
                          });

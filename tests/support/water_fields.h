@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -29,6 +30,17 @@ inline std::vector<water::WaveComponentParams> sixWaves() {
     return waves;
 }
 
+// A periodic map of heights of some centimetres, in metres.
+inline Image bumpyMap(int size, int kind) {
+    Image map(size, size, 1);
+    const float turn = 6.2831853f / float(size);
+    for (int y = 0; y < size; ++y)
+        for (int x = 0; x < size; ++x)
+            map.at(x, y)[0] =
+                0.03f * std::sin(turn * float(kind * x + y)) + 0.01f * std::cos(turn * float(3 * x - 2 * y));
+    return map;
+}
+
 inline std::vector<NamedField> waveFields() {
     std::vector<NamedField> fields;
     const auto add = [&](const char* name, float reach, const water::WaveParams& params,
@@ -44,6 +56,13 @@ inline std::vector<NamedField> waveFields() {
     add("circular", 12, p);
     p.kind = "turbulent";
     add("turbulent", 100, p);
+    p.kind = "ocean";
+    add("ocean", 100, p);
+    p.spectrum = "phillips", p.windSpeed = 12;
+    add("phillips", 100, p);
+    p.kind = "heightmap", p.periodM = 3.7f;
+    add("heightmap", 100, p, {}, {bumpyMap(64, 1)});
+    add("sequence", 100, p, {}, {bumpyMap(32, 1), bumpyMap(32, 2), bumpyMap(32, 3)});
     return fields;
 }
 

@@ -21,6 +21,9 @@ int findClip(const Model& model, std::string_view name);
 // it is clamped. Reuses the storage of `pose`. Source: glTF 2.0 appendix C (interpolation).
 void poseModel(const Model& model, int clip, float time, bool loop, Pose& pose);
 
+// Positions of a primitive of node `node`'s mesh in model space: morphed, then skinned or moved with its node.
+std::vector<Vec3> posedPositions(const Model& model, const Pose& pose, int node, const Primitive& primitive);
+
 // Bounds of the posed model's vertices, in model space. Skinned primitives are skinned exactly (one pass over the
 // vertices).
 Bounds posedBounds(const Model& model, const Pose& pose);

@@ -319,7 +319,8 @@ void visit(P& p, V&& v) {
 }
 Result<Model> makePlaza(const PlazaShape& shape);
 
-// A shoal of fish that swims counter-clockwise (seen from above) round the origin; y = 0 is its middle. A clip of one lap.
+// A shoal of fish that swims counter-clockwise (seen from above) round the origin; y = 0 is its middle. A clip of one
+// lap.
 struct FishShape {
     std::string species = "sardine";
     int count = 60;
@@ -330,12 +331,8 @@ struct FishShape {
 template <class P, class V>
 requires std::is_same_v<std::remove_const_t<P>, FishShape>
 void visit(P& p, V&& v) {
-    v(p.species, Field{"species",
-                       "",
-                       -1e30,
-                       1e30,
-                       "what fish",
-                       {"sardine", "fusilier", "butterfly", "sergeant", "grouper"}});
+    v(p.species,
+      Field{"species", "", -1e30, 1e30, "what fish", {"sardine", "fusilier", "butterfly", "sergeant", "grouper"}});
     v(p.count, Field{"count", "", 1, 2000, "how many"});
     v(p.length, Field{"length", "m", 0.01, 20, "of a fish"});
     v(p.variation, Field{"variation", "", 0, 0.9, "how much their lengths differ"});
@@ -346,5 +343,68 @@ void visit(P& p, V&& v) {
     v(p.seed, Field{"seed", "", 0, 4294967295.0, "another shoal"});
 }
 Result<Model> makeFish(const FishShape& shape);
+
+// A coral reef on sand at y = 0: boulders overgrown with corals, sponges and fans.
+struct ReefShape {
+    Vec2 area{9, 6};
+    float height = 1.8f;
+    int rocks = 36, corals = 150;
+    std::uint32_t seed = 1;
+};
+template <class P, class V>
+requires std::is_same_v<std::remove_const_t<P>, ReefShape>
+void visit(P& p, V&& v) {
+    v(p.area, Field{"area", "m", 0.5, 1000, "it covers, along x and z"});
+    v(p.height, Field{"height", "m", 0, 100, "of the rocks in its middle, about"});
+    v(p.rocks, Field{"rocks", "", 1, 2000, "boulders it is piled of"});
+    v(p.corals, Field{"corals", "", 0, 5000, "corals, sponges and fans on them"});
+    v(p.seed, Field{"seed", "", 0, 4294967295.0, "another reef"});
+}
+Result<Model> makeReef(const ReefShape& shape);
+
+// A wide floor of rippled sand about y = 0, with stones and tufts of seagrass near its middle.
+struct SeabedShape {
+    float size = 200, relief = 0.9f, slope = 0.05f, flat = 6, scatter = 16;
+    int cells = 180, stones = 70, grass = 50;
+    Vec3 color{1, 1, 1};
+    std::uint32_t seed = 1;
+};
+template <class P, class V>
+requires std::is_same_v<std::remove_const_t<P>, SeabedShape>
+void visit(P& p, V&& v) {
+    v(p.size, Field{"size", "m", 1, 1e5, "along x and z"});
+    v(p.relief, Field{"relief", "m", 0, 100, "height of its banks"});
+    v(p.slope, Field{"slope", "", 0, 2, "how steeply it falls towards -z"});
+    v(p.flat, Field{"flat", "m", 0, 1e4, "radius about the origin without banks"});
+    v(p.scatter, Field{"scatter", "m", 0, 1e4, "radius that stones and grass lie within"});
+    v(p.cells, Field{"cells", "", 8, 1024, "grid cells along a side, small in the middle"});
+    v(p.stones, Field{"stones", "", 0, 5000, "how many"});
+    v(p.grass, Field{"grass", "", 0, 5000, "tufts of seagrass"});
+    v(p.color, Field{"color", "", 0, 1, "tint of the sand"});
+    v(p.seed, Field{"seed", "", 0, 4294967295.0, "another floor"});
+}
+Result<Model> makeSeabed(const SeabedShape& shape);
+
+// What is left of a temple on y = 0: steps, columns along x on both sides of which some broke and fell, walls, an arch.
+struct RuinShape {
+    float length = 13, width = 6.5f, columnHeight = 4, decay = 0.5f, overgrowth = 0.6f;
+    int columns = 5;
+    bool arch = true, wall = true;
+    std::uint32_t seed = 1;
+};
+template <class P, class V>
+requires std::is_same_v<std::remove_const_t<P>, RuinShape>
+void visit(P& p, V&& v) {
+    v(p.length, Field{"length", "m", 3, 200, "along x"});
+    v(p.width, Field{"width", "m", 2, 200, "along z"});
+    v(p.columnHeight, Field{"columnHeight", "m", 0.5, 30, "of a whole column"});
+    v(p.decay, Field{"decay", "", 0, 1, "how much of it fell"});
+    v(p.overgrowth, Field{"overgrowth", "", 0, 1, "algae on its stones"});
+    v(p.columns, Field{"columns", "", 2, 100, "along each side"});
+    v(p.arch, Field{"arch", "", 0, 1, "a free-standing arch before its +x end"});
+    v(p.wall, Field{"wall", "", 0, 1, "a wall with a window at its -x end"});
+    v(p.seed, Field{"seed", "", 0, 4294967295.0, "another ruin"});
+}
+Result<Model> makeRuin(const RuinShape& shape);
 
 }  // namespace shoal::scene

@@ -51,6 +51,7 @@ struct LightSlot {
     float texel = 0;            // metres a side of a texel
     Vec4 source;                // w 0: unit vector towards the (apparent) light; w 1: its apparent place
     float top = 0, bottom = 0;  // heights that the depth maps reach between (world y)
+    float discRadius = 0;       // metres that the light's size blurs by at the far end of the depth maps
     float margin = 0;           // metres beyond the square that light which ends in it may start
 };
 
@@ -68,6 +69,8 @@ public:
     // reflected ones), and one of what is above it, along the light's own direction. Purpose::photonDepth.
     std::span<frame::NeededView> neededViews();
     std::span<const LightSlot> slots() const;
+    // Whether anything of the scene may stand between light and water (the air layers are drawn).
+    bool airDrawn() const;
     // Binds SHOAL_BLOCK_LIGHT_SPACE and the depth textures that light_space.io.glsl names.
     void bind() const;
 

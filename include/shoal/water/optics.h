@@ -25,8 +25,8 @@ struct OpticsParams {
     std::string phase = "henyey-greenstein";
     float anisotropy = 0.924f;
     float backscatter = 0.0183f;  // fournier-forand: chooses (n, mu)
-    // Share of scattered light that stays in the beam; -1: the mean cosine squared (anisotropy^2). For fournier-forand at
-    // least what is scattered by less than 0.04 degrees.
+    // Share of scattered light that stays in the beam; -1: the mean cosine squared (anisotropy^2). For fournier-forand
+    // at least what is scattered by less than 0.04 degrees.
     float forwardFraction = -1;
     float index = float(kWaterIndex);
 };

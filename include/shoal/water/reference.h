@@ -28,15 +28,23 @@ struct ReferenceOptions {
     ProgressCallback progress;
 };
 
-// Irradiance (W/m2, 3 channels, row 0 on top) that refracted light puts on the first opaque surface of each pixel: rays
-// binned over the area that the pixel sees.
+// Irradiance (W/m2, 3 channels, row 0 on top) that refracted light of the sun and of lamps above the water puts on the
+// first surface of each pixel, seen in a straight line (the water's surface does not bend the eye's rays): flux of the
+// rays that land there over the area that the pixel covers. Triangles are two-sided and opaque, and cut the light above
+// and below the surface (the sun's only where it casts shadow); waves shade each other. Lamps are points. Rays enter
+// only where they can reach what is seen (slopes up to the field's bound; where that is above .6, up to 1.1 times the
+// greatest of 2^18 samples). Sums are integers: the same for any number of threads. Errors: cancelled.
 Result<Image> referenceCaustics(const ReferenceScene& scene, const Body& body, const BodyLights& lights,
                                 const light::View& view, const ReferenceOptions& options);
-// In-scattered radiance (W/(m2 sr)) along each pixel's path, the eye under water or above it with the surface unseen.
+// Radiance (W/(m2 sr)) scattered once towards the eye along each pixel's path in the water: from the eye, or from where
+// a straight line crosses the level, to the first surface or the level, at most until 1e-4 of the light is left. Light
+// of the sun (its disc as 16 directions) and of lamps above and in the water, cut by triangles and waves. Takes 30
+// bytes a ray. Not in it: light of the sky, and light scattered twice. Errors: cancelled.
 Result<Image> referenceInscatter(const ReferenceScene& scene, const Body& body, const BodyLights& lights,
                                  const light::View& view, const ReferenceOptions& options);
 
-// Rays onto a level floor at `floorY` into bins of a rectangle, c per channel as in Optics: the exact answers' partner.
+// Rays onto a level floor `depth` metres below the level into bins of a rectangle, one beam attenuation c: the exact
+// answers' partner. Light that the surface reflects onto other waves is not followed.
 struct FloorBins {
     Vec2 min, max;  // world x, z
     int countX = 512, countZ = 512;

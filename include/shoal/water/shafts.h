@@ -12,8 +12,9 @@
 namespace shoal::water {
 
 struct ShaftSetup {
-    int resolution = 256;  // texels a side of a slice
-    int slices = 24;
+    int resolution = 256;      // texels a side of a slice, at most: few photons fill fewer
+    int slices = 16;           // of a slot, exponential in depth
+    int viewResolution = 512;  // the LightViews' resolution
 };
 
 // The [water.shafts] table.

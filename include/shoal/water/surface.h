@@ -37,8 +37,8 @@ struct WaterPaths {
     // enters the water there, negative: it leaves it.
     gl::TextureView surfaceDepth;
     gl::TextureView surfaceNormal;  // RG16 octahedral, world, upwards
-    // RGBA16F: xy place in the picture ([0, 1]) of the opaque surface at the end of the path (bent where it enters from
-    // above), z: metres in water, w: 1 where the path begins at the eye.
+    // RGBA16F: xy from the pixel to the place in the picture (of its size) where the opaque surface at the end of the
+    // path is seen (not 0 where the ray is bent), z: metres in water, w: 1 where the path begins at the eye.
     gl::TextureView path;
 };
 
@@ -73,13 +73,16 @@ public:
                  const Bounds& sceneBounds);
     std::span<const MirrorView> neededViews() const;
 
-    // Draws the surface of this sample and finds every pixel's path. viewDepth: of the opaque surfaces.
+    // Draws the surface of this sample and finds every pixel's path. viewDepth: of the opaque surfaces; depth: D32F of
+    // the same, reversed z, only read. Lighting::prepare() of this context and Lighting::bind() must have been called
+    // (the pixels' rays).
     void trace(const frame::Context& context, const SurfaceParams& params, const Body& body, gl::TextureView viewDepth,
                gl::TextureView depth);
     WaterPaths paths() const;
 
-    // Draws the picture with water into `target` (radiance; bound by the caller). Lighting::bind() must have been
-    // called (sky, sun). Fills transmittance() and waterDepth() too when terms are wanted.
+    // Draws the picture with water, every pixel of it, into the bound framebuffer (radiance; not inputs.radiance).
+    // Lighting::bind() must have been called (sky, sun). Radiance is dimmed as the sharp beam is, by
+    // Optics::beamAttenuation(). Fills transmittance() and waterDepth() too when terms are wanted.
     void compose(const frame::Context& context, const SurfaceParams& params, const Body& body, const BodyLights& lights,
                  const SurfaceInputs& inputs);
     void setTermsWanted(bool wanted);

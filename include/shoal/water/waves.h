@@ -88,18 +88,20 @@ void visit(P& p, V&& v) {
 
 // What the GPU is given: plane waves, one circular wave, and periodic tiles. h is their sum. The same numbers serve
 // WaveField::at, so that CPU and GPU agree.
+// amplitude cos(2 pi (turnsX x + turnsZ z) + phase); turns are waves a metre: k / 2 pi.
 struct PlaneWave {
-    float amplitude, kx, kz, phase;  // phase at the time set
+    float amplitude, turnsX, turnsZ, phase;  // phase at the time set, radians
 };
 struct CircularWave {
     float amplitude = 0, k = 0, phase = 0, centerX = 0, centerZ = 0;  // a cos(k r + phase); smooth at r = 0
 };
+// Between texels the height is the bicubic Hermite surface of its corners: slopes are continuous, and slopes and second
+// derivatives are those of the height.
 struct WaveTile {
     float periodM = 1;
     int size = 0;  // texels a side, a power of two
     std::vector<float>
-        height;  // size^2 texels x (h, dh/dx, dh/dz, 0); texel (i, j) at x = i / size * periodM, z = j ...
-    std::vector<float> curvature;  // size^2 texels x (hxx, hxz, hzz, 0)
+        texels;  // size^2 x (h, dh/dx, dh/dz, d2h/dxdz); texel (i, j) at x = i / size * periodM, z = j ...
 };
 
 class WaveField {
@@ -113,7 +115,8 @@ public:
     WaveField& operator=(WaveField&&) noexcept;
     ~WaveField();
 
-    void setTime(double seconds);  // of the scene; makes the tiles of an ocean (some ms). Starts at 0
+    // Of the scene, finite (else nothing happens); makes the tiles of an ocean (some ms). Starts at 0.
+    void setTime(double seconds);
     double time() const;
     WaveSample at(double x, double z) const;  // at the time set
     WaveBounds bounds() const;

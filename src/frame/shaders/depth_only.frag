@@ -1,7 +1,7 @@
 #version 450 core
 // Depth comes from the rasteriser; only a masked material looks at its alpha. Variant PEEL: what lies behind another
 // layer [Everitt 2001].
-#include "frame/bindings.shared.h"  // outside every #ifdef: it is included once
+#include "frame/bindings.shared.h"
 #ifdef MASKED
 #include "frame/material.io.glsl"
 layout(location = 0) in vec4 vUv;

@@ -21,7 +21,8 @@ struct Lap {
 
     Vec3 middle(float t) const {
         const float a = 2 * kPi * t;
-        const float r = radius * (1 + wander * (0.22f * std::sin(2 * a + phase[0]) + 0.10f * std::sin(3 * a + phase[1])));
+        const float r =
+            radius * (1 + wander * (0.22f * std::sin(2 * a + phase[0]) + 0.10f * std::sin(3 * a + phase[1])));
         return {r * std::sin(a), 0.10f * radius * wander * std::sin(2 * a + phase[2]), r * std::cos(a)};
     }
     Vec3 outwards(float t) const { return {std::sin(2 * kPi * t), 0, std::cos(2 * kPi * t)}; }
@@ -74,7 +75,8 @@ void append(std::vector<float>& values, Quat q) { values.insert(values.end(), {q
 // Heading along the way with the back up, leaning into the turn.
 Quat headingAt(const Lap& lap, const Member& member, float t, const FishShape& shape) {
     const float e = 0.004f;
-    const Vec3 before = member.at(lap, t - e, shape), now = member.at(lap, t, shape), after = member.at(lap, t + e, shape);
+    const Vec3 before = member.at(lap, t - e, shape), now = member.at(lap, t, shape),
+               after = member.at(lap, t + e, shape);
     const Vec3 ahead = normalize(after - before), turn = cross(normalize(now - before), normalize(after - now));
     const float yaw = std::atan2(ahead.x, ahead.z), pitch = -std::asin(std::clamp(ahead.y, -0.7f, 0.7f));
     const float lean = std::clamp(-turn.y * 2.5f, -0.4f, 0.4f);
@@ -119,7 +121,8 @@ void addJoints(Model& model, const Member& member, int number) {
         Node bone;
         bone.name = "spine";
         bone.parent = root + joint;
-        bone.translation = {0, 0, kFishJoints[std::size_t(joint)] - (joint > 0 ? kFishJoints[std::size_t(joint) - 1] : 0)};
+        bone.translation = {0, 0,
+                            kFishJoints[std::size_t(joint)] - (joint > 0 ? kFishJoints[std::size_t(joint) - 1] : 0)};
         model.nodes.push_back(bone);
         skin.joints.push_back(root + 1 + joint);
         skin.jointFromMesh.push_back(scaling({1 / member.size, 1 / member.size, 1 / member.size}));
@@ -163,7 +166,8 @@ Result<Model> makeFish(const FishShape& shape) {
     const int skin = builder.addMaterial("scales", {1, 1, 1}, makeFishSkin(shape.species, shape.seed));
     const int fin = builder.addMaterial("fins", {1, 1, 1}, 0.5f), eye = builder.addMaterial("eyes", {1, 1, 1}, 0.15f);
     builder.material(fin).doubleSided = true;
-    addFish(builder.part(skin), builder.part(fin), builder.part(eye), shape.species);
+    Part &body = builder.part(skin), &fins = builder.part(fin), &eyes = builder.part(eye);  // in this order
+    addFish(body, fins, eyes, shape.species);
     Model model = builder.finish();
 
     const Lap lap{shape.radius, shape.wander, {dice.range(0, 6), dice.range(0, 6), dice.range(0, 6)}};

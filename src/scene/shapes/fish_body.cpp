@@ -1,5 +1,7 @@
 #include "scene/shapes/fish_body.h"
 
+#include <span>
+
 #include "scene/shapes/noise.h"
 
 namespace shoal::scene::shapes {
@@ -15,44 +17,64 @@ struct Fin {
 };
 
 struct Kind {
-    std::vector<Section> sections;
+    std::span<const Section> sections;
     Fin dorsal, anal;
     float tailSpan, tailFork, pectoral;
     float eye, eyeAt, eyeUp;
     Vec3 finColor, finEdge;
 };
 
-Kind kindOf(std::string_view species) {
-    if (species == "fusilier")
-        return {{{0.004f, 0.006f, 0.006f, 0.004f}, {0.03f, 0.035f, 0.03f, 0.022f}, {0.1f, 0.075f, 0.065f, 0.042f}, {0.25f, 0.12f, 0.115f, 0.062f},
-                 {0.42f, 0.135f, 0.135f, 0.066f}, {0.6f, 0.105f, 0.11f, 0.05f}, {0.76f, 0.055f, 0.055f, 0.026f}, {0.85f, 0.032f, 0.032f, 0.014f}},
-                {0.28f, 0.74f, 0.06f, 0.05f}, {0.56f, 0.76f, 0.05f, 0.05f}, 0.16f, 0.11f, 0.13f,
-                0.026f, 0.105f, 0.02f, {0.72f, 0.58f, 0.10f}, {0.30f, 0.36f, 0.30f}};
-    if (species == "butterfly")
-        return {{{0.004f, 0.006f, 0.006f, 0.004f}, {0.04f, 0.022f, 0.024f, 0.014f}, {0.1f, 0.075f, 0.07f, 0.03f}, {0.2f, 0.19f, 0.15f, 0.052f},
-                 {0.35f, 0.28f, 0.25f, 0.066f}, {0.52f, 0.30f, 0.29f, 0.062f}, {0.68f, 0.25f, 0.25f, 0.046f}, {0.79f, 0.11f, 0.11f, 0.026f},
-                 {0.85f, 0.058f, 0.058f, 0.014f}},
-                {0.26f, 0.80f, 0.09f, 0.05f}, {0.52f, 0.80f, 0.08f, 0.05f}, 0.10f, 0.01f, 0.14f,
-                0.028f, 0.125f, 0.03f, {0.88f, 0.66f, 0.08f}, {0.30f, 0.20f, 0.03f}};
-    if (species == "sergeant")
-        return {{{0.004f, 0.008f, 0.008f, 0.006f}, {0.03f, 0.05f, 0.045f, 0.026f}, {0.1f, 0.115f, 0.105f, 0.048f}, {0.22f, 0.185f, 0.17f, 0.066f},
-                 {0.38f, 0.22f, 0.215f, 0.07f}, {0.56f, 0.18f, 0.185f, 0.054f}, {0.72f, 0.095f, 0.10f, 0.03f}, {0.83f, 0.052f, 0.052f, 0.015f}},
-                {0.26f, 0.76f, 0.085f, 0.06f}, {0.5f, 0.76f, 0.09f, 0.06f}, 0.17f, 0.08f, 0.15f,
-                0.03f, 0.10f, 0.03f, {0.42f, 0.46f, 0.42f}, {0.05f, 0.06f, 0.08f}};
-    if (species == "grouper")
-        return {{{0.004f, 0.01f, 0.015f, 0.01f}, {0.03f, 0.045f, 0.06f, 0.045f}, {0.12f, 0.11f, 0.125f, 0.085f}, {0.26f, 0.165f, 0.17f, 0.11f},
-                 {0.42f, 0.175f, 0.175f, 0.11f}, {0.6f, 0.14f, 0.14f, 0.08f}, {0.75f, 0.085f, 0.085f, 0.045f}, {0.85f, 0.065f, 0.065f, 0.024f}},
-                {0.28f, 0.80f, 0.085f, 0.04f}, {0.58f, 0.78f, 0.075f, 0.05f}, 0.13f, -0.02f, 0.17f,
-                0.024f, 0.115f, 0.06f, {0.30f, 0.23f, 0.17f}, {0.10f, 0.08f, 0.07f}};
-    return {{{0.004f, 0.006f, 0.006f, 0.004f}, {0.03f, 0.028f, 0.032f, 0.02f}, {0.1f, 0.058f, 0.068f, 0.038f}, {0.25f, 0.088f, 0.105f, 0.054f},
-             {0.45f, 0.092f, 0.115f, 0.056f}, {0.65f, 0.066f, 0.08f, 0.04f}, {0.8f, 0.034f, 0.036f, 0.02f}, {0.86f, 0.024f, 0.024f, 0.01f}},
-            {0.42f, 0.56f, 0.075f, 0.06f}, {0.68f, 0.8f, 0.035f, 0.03f}, 0.13f, 0.11f, 0.10f,
-            0.026f, 0.09f, 0.012f, {0.34f, 0.42f, 0.42f}, {0.14f, 0.19f, 0.21f}};
+constexpr Section kFusilierBody[] = {{0.004f, 0.006f, 0.006f, 0.004f}, {0.03f, 0.035f, 0.03f, 0.022f},
+                                     {0.1f, 0.075f, 0.065f, 0.042f},   {0.25f, 0.12f, 0.115f, 0.062f},
+                                     {0.42f, 0.135f, 0.135f, 0.066f},  {0.6f, 0.105f, 0.11f, 0.05f},
+                                     {0.76f, 0.055f, 0.055f, 0.026f},  {0.85f, 0.032f, 0.032f, 0.014f}};
+constexpr Kind kFusilier{
+    kFusilierBody, {0.28f, 0.74f, 0.06f, 0.05f}, {0.56f, 0.76f, 0.05f, 0.05f}, 0.16f, 0.11f, 0.13f, 0.026f, 0.105f,
+    0.02f,         {0.72f, 0.58f, 0.10f},        {0.30f, 0.36f, 0.30f}};
+
+constexpr Section kButterflyBody[] = {
+    {0.004f, 0.006f, 0.006f, 0.004f}, {0.04f, 0.022f, 0.024f, 0.014f}, {0.1f, 0.075f, 0.07f, 0.03f},
+    {0.2f, 0.19f, 0.15f, 0.052f},     {0.35f, 0.28f, 0.25f, 0.066f},   {0.52f, 0.30f, 0.29f, 0.062f},
+    {0.68f, 0.25f, 0.25f, 0.046f},    {0.79f, 0.11f, 0.11f, 0.026f},   {0.85f, 0.058f, 0.058f, 0.014f}};
+constexpr Kind kButterfly{
+    kButterflyBody, {0.26f, 0.80f, 0.09f, 0.05f}, {0.52f, 0.80f, 0.08f, 0.05f}, 0.10f, 0.01f, 0.14f, 0.028f, 0.125f,
+    0.03f,          {0.88f, 0.66f, 0.08f},        {0.30f, 0.20f, 0.03f}};
+
+constexpr Section kSergeantBody[] = {{0.004f, 0.008f, 0.008f, 0.006f}, {0.03f, 0.05f, 0.045f, 0.026f},
+                                     {0.1f, 0.115f, 0.105f, 0.048f},   {0.22f, 0.185f, 0.17f, 0.066f},
+                                     {0.38f, 0.22f, 0.215f, 0.07f},    {0.56f, 0.18f, 0.185f, 0.054f},
+                                     {0.72f, 0.095f, 0.10f, 0.03f},    {0.83f, 0.052f, 0.052f, 0.015f}};
+constexpr Kind kSergeant{
+    kSergeantBody, {0.26f, 0.76f, 0.085f, 0.06f}, {0.5f, 0.76f, 0.09f, 0.06f}, 0.17f, 0.08f, 0.15f, 0.03f, 0.10f,
+    0.03f,         {0.42f, 0.46f, 0.42f},         {0.05f, 0.06f, 0.08f}};
+
+constexpr Section kGrouperBody[] = {{0.004f, 0.01f, 0.015f, 0.01f},  {0.03f, 0.045f, 0.06f, 0.045f},
+                                    {0.12f, 0.11f, 0.125f, 0.085f},  {0.26f, 0.165f, 0.17f, 0.11f},
+                                    {0.42f, 0.175f, 0.175f, 0.11f},  {0.6f, 0.14f, 0.14f, 0.08f},
+                                    {0.75f, 0.085f, 0.085f, 0.045f}, {0.85f, 0.065f, 0.065f, 0.024f}};
+constexpr Kind kGrouper{
+    kGrouperBody, {0.28f, 0.80f, 0.085f, 0.04f}, {0.58f, 0.78f, 0.075f, 0.05f}, 0.13f, -0.02f, 0.17f, 0.024f, 0.115f,
+    0.06f,        {0.30f, 0.23f, 0.17f},         {0.10f, 0.08f, 0.07f}};
+
+constexpr Section kSardineBody[] = {{0.004f, 0.006f, 0.006f, 0.004f}, {0.03f, 0.028f, 0.032f, 0.02f},
+                                    {0.1f, 0.058f, 0.068f, 0.038f},   {0.25f, 0.088f, 0.105f, 0.054f},
+                                    {0.45f, 0.092f, 0.115f, 0.056f},  {0.65f, 0.066f, 0.08f, 0.04f},
+                                    {0.8f, 0.034f, 0.036f, 0.02f},    {0.86f, 0.024f, 0.024f, 0.01f}};
+constexpr Kind kSardine{
+    kSardineBody, {0.42f, 0.56f, 0.075f, 0.06f}, {0.68f, 0.8f, 0.035f, 0.03f}, 0.13f, 0.11f, 0.10f, 0.026f, 0.09f,
+    0.012f,       {0.34f, 0.42f, 0.42f},         {0.14f, 0.19f, 0.21f}};
+
+const Kind& kindOf(std::string_view species) {
+    if (species == "fusilier") return kFusilier;
+    if (species == "butterfly") return kButterfly;
+    if (species == "sergeant") return kSergeant;
+    if (species == "grouper") return kGrouper;
+    return kSardine;
 }
 
 float zOf(float u) { return 0.5f - u; }
 
-Section sectionAt(const std::vector<Section>& all, float u) {
+Section sectionAt(std::span<const Section> all, float u) {
     std::size_t i = 0;
     while (i + 2 < all.size() && all[i + 1].at < u) ++i;
     const auto tangent = [&](std::size_t k, float Section::*of) {
@@ -84,7 +106,9 @@ void addBody(Part& part, const Kind& kind) {
         const float turn = 2 * kPi * float(i) / kAround, e = 0.002f;
         const Vec3 along = pointAt(std::min(u + e, last), turn) - pointAt(std::max(u - e, first), turn);
         const Vec3 around = pointAt(u, turn + 0.02f) - pointAt(u, turn - 0.02f);
-        return part.add({pointAt(u, i == kAround ? 0 : turn), normalize(cross(around, along)), normalize(along),
+        return part.add({pointAt(u, i == kAround ? 0 : turn),
+                         normalize(cross(around, along)),
+                         normalize(along),
                          {u, float(i) / kAround}});
     };
     std::vector<std::uint32_t> before;
@@ -98,7 +122,8 @@ void addBody(Part& part, const Kind& kind) {
         }
         if (r == 0 || r + 1 == rings.size()) {  // close both ends
             const float z = zOf(rings[r]), out = r == 0 ? 1.0f : -1.0f;
-            const std::uint32_t middle = part.add({{0, 0, z + out * 0.003f}, {0, 0, out}, {0, 1, 0}, {rings[r], 0.25f}});
+            const std::uint32_t middle =
+                part.add({{0, 0, z + out * 0.003f}, {0, 0, out}, {0, 1, 0}, {rings[r], 0.25f}});
             for (std::size_t k = 0; k < kAround; ++k) part.triangle(middle, ring[k], ring[k + 1], {0, 0, out});
         }
         before = std::move(ring);
@@ -128,7 +153,8 @@ void addMedianFin(Part& part, const Kind& kind, const Fin& fin, float sign) {
         const Section s = sectionAt(kind.sections, u);
         const float base = sign * (sign > 0 ? s.up : s.down);
         const float shape = smoothstep(-0.04f, 0.3f, t) * mix(1.0f, 0.45f, smoothstep(0.35f, 1.0f, t));
-        pairs.push_back({Vec3{0, base * 0.93f, zOf(u)}, {0, base + sign * fin.height * (0.08f + shape), zOf(u + fin.sweep * (0.3f + 0.7f * t))}});
+        pairs.push_back({Vec3{0, base * 0.93f, zOf(u)},
+                         {0, base + sign * fin.height * (0.08f + shape), zOf(u + fin.sweep * (0.3f + 0.7f * t))}});
     }
     addStrip(part, kind, pairs, {1, 0, 0});
 }
@@ -139,7 +165,8 @@ void addTail(Part& part, const Kind& kind) {
     constexpr int kRays = 12;
     for (int i = 0; i <= kRays; ++i) {
         const float t = 2 * float(i) / kRays - 1, reach = std::abs(t);
-        const float edge = 1 - kind.tailFork * (1 - std::pow(reach, 1.2f)) - (kind.tailFork < 0.03f ? 0.05f * reach * reach : 0);
+        const float edge =
+            1 - kind.tailFork * (1 - std::pow(reach, 1.2f)) - (kind.tailFork < 0.03f ? 0.05f * reach * reach : 0);
         pairs.push_back({Vec3{0, root.up * 0.9f * t, zOf(root.at)}, {0, kind.tailSpan * t, zOf(edge)}});
     }
     addStrip(part, kind, pairs, {1, 0, 0});
@@ -187,7 +214,7 @@ void addEyes(Part& part, const Kind& kind) {
 }  // namespace
 
 void addFish(Part& body, Part& fins, Part& eyes, std::string_view species) {
-    const Kind kind = kindOf(species);
+    const Kind& kind = kindOf(species);
     addBody(body, kind);
     addMedianFin(fins, kind, kind.dorsal, 1);
     addMedianFin(fins, kind, kind.anal, -1);
@@ -201,7 +228,8 @@ Vec4 fishWeights(float z) {
     std::size_t i = 0;
     while (i < 3 && z < kFishJoints[i + 1]) ++i;
     if (i == 0) {
-        const float t = smoothstep(0, 1, std::clamp((kFishJoints[0] - z) / (kFishJoints[0] - kFishJoints[1]), 0.0f, 1.0f));
+        const float t =
+            smoothstep(0, 1, std::clamp((kFishJoints[0] - z) / (kFishJoints[0] - kFishJoints[1]), 0.0f, 1.0f));
         w[0] = 1 - t, w[1] = t;
     } else if (i == 3) {
         w[3] = 1;

@@ -39,6 +39,9 @@ const std::map<std::string, Kind, std::less<>>& kinds() {
         {"colonnade", kindOf<ColonnadeShape, makeColonnade>()},
         {"boat", kindOf<BoatShape, makeBoat>()},
         {"fish", kindOf<FishShape, makeFish>()},
+        {"reef", kindOf<ReefShape, makeReef>()},
+        {"ruin", kindOf<RuinShape, makeRuin>()},
+        {"seabed", kindOf<SeabedShape, makeSeabed>()},
     };
     return all;
 }

@@ -8,7 +8,8 @@ namespace shoal::scene::shapes {
 Surface makePolyps(std::uint32_t seed) {
     return makeSurface(256, 0.22f, [&](float u, float v) {
         const Cell cup = cellNoise(u * 18, v * 18, seed, 18, 18);
-        const float rim = 1 - smoothstep(0.12f, 0.42f, cup.distance), mouth = 1 - smoothstep(0.05f, 0.16f, cup.distance);
+        const float rim = 1 - smoothstep(0.12f, 0.42f, cup.distance),
+                    mouth = 1 - smoothstep(0.05f, 0.16f, cup.distance);
         const float patch = fractal(u * 3, v * 3, 3, seed + 5, 3, 3);
         Texel t;
         t.albedo = Vec3{1, 1, 1} * std::clamp(0.66f + 0.3f * rim - 0.35f * mouth + 0.1f * patch, 0.08f, 1.0f);
@@ -21,7 +22,8 @@ Surface makePolyps(std::uint32_t seed) {
 Surface makeMeanders(std::uint32_t seed) {
     return makeSurface(512, 0.6f, [&](float u, float v) {
         // Bands of equal phase of a strongly warped field wind like a brain coral's valleys.
-        const float warpU = 0.16f * fractal(u * 7, v * 7, 2, seed, 7, 7), warpV = 0.16f * fractal(u * 7, v * 7, 2, seed + 9, 7, 7);
+        const float warpU = 0.16f * fractal(u * 7, v * 7, 2, seed, 7, 7),
+                    warpV = 0.16f * fractal(u * 7, v * 7, 2, seed + 9, 7, 7);
         const float field = noise((u + warpU) * 8, (v + warpV) * 8, seed + 3, 8, 8);
         const float ridge = 0.5f + 0.5f * std::sin(field * 15);
         const float septa = 0.5f + 0.5f * std::sin(2 * kPi * 90 * (u + warpU) + 2 * kPi * 90 * (v - warpV));
@@ -45,13 +47,14 @@ Surface makeSilt(std::uint32_t seed) {
         const float wave = 0.5f + 0.5f * mix(first, second, which);
         const float strength = 0.45f + 0.55f * smoothstep(-0.4f, 0.3f, fractal(u * 4, v * 4, 3, seed + 3, 4, 4));
         const float ripple = wave * wave * strength;
-        const float grain = noise(u * 400, v * 400, seed + 5, 400, 400), patch = fractal(u * 5, v * 5, 4, seed + 8, 5, 5);
+        const float grain = noise(u * 400, v * 400, seed + 5, 400, 400),
+                    patch = fractal(u * 5, v * 5, 4, seed + 8, 5, 5);
         const Cell bit = cellNoise(u * 70, v * 70, seed + 13, 70, 70);
         const float shell = (bit.id & 31) == 0 ? 1 - smoothstep(0.12f, 0.22f, bit.distance + 0.06f * grain) : 0;
         const Vec3 shellColor = lerp(Vec3{0.80f, 0.76f, 0.70f}, Vec3{0.22f, 0.20f, 0.18f}, float((bit.id >> 8) & 1));
         Texel t;
-        t.albedo = lerp(Vec3{0.66f, 0.60f, 0.49f} * (0.84f + 0.14f * ripple + 0.08f * grain + 0.07f * patch), shellColor,
-                        0.8f * shell);
+        t.albedo = lerp(Vec3{0.58f, 0.52f, 0.42f} * (0.84f + 0.14f * ripple + 0.08f * grain + 0.07f * patch),
+                        shellColor, 0.8f * shell);
         t.height = 0.020f * ripple + 0.0010f * grain + 0.008f * patch + 0.004f * shell;
         t.roughness = 0.95f;
         return t;
@@ -70,7 +73,8 @@ Pattern sardine(float u, float h, float speck) {
     const float back = smoothstep(0.15f, 0.5f, h + 0.05f * speck);
     Pattern p{lerp(Vec3{0.66f, 0.70f, 0.72f}, Vec3{0.07f, 0.15f, 0.20f}, back), mix(0.28f, 0.42f, back)};
     p.color = lerp(p.color, {0.86f, 0.87f, 0.86f}, smoothstep(0.2f, 0.8f, -h));
-    const float spots = smoothstep(0.75f, 0.9f, std::cos(2 * kPi * u * 12)) * (1 - smoothstep(0.05f, 0.12f, std::abs(h - 0.12f)));
+    const float spots =
+        smoothstep(0.75f, 0.9f, std::cos(2 * kPi * u * 12)) * (1 - smoothstep(0.05f, 0.12f, std::abs(h - 0.12f)));
     p.color = lerp(p.color, {0.03f, 0.05f, 0.07f}, 0.7f * spots * smoothstep(0.2f, 0.3f, u));
     return p;
 }
@@ -96,7 +100,8 @@ Pattern butterfly(float u, float h, float speck) {
 
 Pattern sergeant(float u, float h, float speck) {
     const float bar = std::cos(2 * kPi * (u - 0.24f) / 0.135f);
-    const float dark = smoothstep(-0.1f, 0.45f, bar + 0.12f * speck) * smoothstep(0.14f, 0.2f, u) * smoothstep(-0.95f, -0.4f, h);
+    const float dark =
+        smoothstep(-0.1f, 0.45f, bar + 0.12f * speck) * smoothstep(0.14f, 0.2f, u) * smoothstep(-0.95f, -0.4f, h);
     Pattern p{lerp(Vec3{0.70f, 0.76f, 0.74f}, Vec3{0.72f, 0.64f, 0.08f}, smoothstep(0.2f, 0.8f, h)), 0.40f};
     p.color = lerp(p.color, {0.02f, 0.03f, 0.05f}, 0.95f * dark);
     return p;
@@ -129,7 +134,8 @@ Surface makeFishSkin(std::string_view species, std::uint32_t seed) {
         const float disc = std::sqrt(du * du + dv * dv), body = smoothstep(0.19f, 0.24f, u);
         const float scale = body * smoothstep(0.35f, 0.75f, disc);
         const float gill = 1 - smoothstep(0.004f, 0.012f, std::abs(u - 0.205f - 0.035f * (1 - h * h)));
-        const float mouth = (1 - smoothstep(0.003f, 0.010f, std::abs(h + 0.12f + 2.2f * u))) * (1 - smoothstep(0.03f, 0.055f, u));
+        const float mouth =
+            (1 - smoothstep(0.003f, 0.010f, std::abs(h + 0.12f + 2.2f * u))) * (1 - smoothstep(0.03f, 0.055f, u));
         Pattern p = patternOf(species, u, h, speck);
         p.color = p.color * (1 - 0.20f * scale - 0.55f * gill * smoothstep(-0.9f, -0.6f, h) - 0.6f * mouth);
         Texel t;

@@ -173,7 +173,9 @@ void addLathe(Part& part, const Frame& frame, const std::vector<Vec2>& profile, 
                 const Vec3 p{at.at.x * c, at.at.y, at.at.x * s}, n{at.normal.x * c, at.normal.y, at.normal.x * s};
                 const Vec3 upwards{-at.normal.y * c, at.normal.x, -at.normal.y * s}, round{s, 0, -c};
                 const Vec3 t = at.flat ? Vec3{1, 0, 0} : grainUp ? upwards : round;
-                Vec2 uv = planarUv(part, p, n, t);
+                // Of a level ring the texture lies level too, though its normals may lean towards a rounded rim.
+                const Vec3 level{0, at.normal.y < 0 ? -1.0f : 1.0f, 0};
+                Vec2 uv = planarUv(part, p, at.flat ? level : n, t);
                 const float turned = turns * float(i) / float(segments), climbed = at.arc * part.uvPerMetre;
                 if (!at.flat) uv = part.uvOffset + (grainUp ? Vec2{climbed, turned} : Vec2{turned, -climbed});
                 rings[end].push_back(part.add({frame.point(p), frame.direction(n), frame.direction(t), uv}));

@@ -25,9 +25,9 @@ Surface makeGrit(std::uint32_t seed);       // pebbly ground: grass, soil and ro
 Surface makePlaster(std::uint32_t seed);    // rendered walls, light; the tint comes from vertex colours
 Surface makeRoofTiles(std::uint32_t seed);  // rows of fired clay, u along the eaves, v down the slope
 Surface makeRipples(std::uint32_t seed);    // small waves of calm water
-Surface makePolyps(std::uint32_t seed);   // coral: rows of small cups; the tint comes from vertex colours
-Surface makeMeanders(std::uint32_t seed);  // brain coral: winding ridges and valleys
-Surface makeSilt(std::uint32_t seed);      // sand under water: ripples, grains, bits of shell
+Surface makePolyps(std::uint32_t seed);     // coral: rows of small cups; the tint comes from vertex colours
+Surface makeMeanders(std::uint32_t seed);   // brain coral: winding ridges and valleys
+Surface makeSilt(std::uint32_t seed);       // sand under water: ripples, grains, bits of shell
 // Scales and the pattern of a species ("sardine", ...) round a fish: u from snout to tail, v once round from the back.
 Surface makeFishSkin(std::string_view species, std::uint32_t seed);
 // Glazed tiles with joints, `count` a side; tileSize in metres.

@@ -1,4 +1,5 @@
-// Fresnel's equations; delta-Eddington [Joseph, Wiscombe & Weinman 1976]; Kd from absorption and scattering [Kirk 1984].
+// Fresnel's equations; delta-Eddington [Joseph, Wiscombe & Weinman 1976]; Kd from absorption and scattering [Kirk
+// 1984].
 #include <cmath>
 #include <cstdio>
 
@@ -9,6 +10,7 @@
 namespace shoal::water {
 namespace {
 
+constexpr float kSharpest = 0.99f;   // Henyey-Greenstein's g stays within
 constexpr double kLeastPeak = 1e-7;  // sin^2 of half the angle: the function grows without end towards 0
 constexpr const char* kChannels[3] = {"red", "green", "blue"};
 
@@ -39,14 +41,16 @@ Result<Vec3> chosen(const char* field, Vec3 given, Vec3 medium) {
     return given;
 }
 
-void choosePhase(const OpticsParams& params, Optics& optics) {
+Result<void> choosePhase(const OpticsParams& params, Optics& optics) {
     if (params.phase == "henyey-greenstein") {
         const float g = params.anisotropy;
         const float f = params.forwardFraction >= 0 ? params.forwardFraction : (g > 0 ? g * g : 0.0f);
         optics.forwardFraction = f;
-        // f above g would leave a function that scatters backwards.
-        optics.anisotropy = std::clamp((g - f) / (1 - f), -0.99f, 0.99f);
-        return;
+        optics.anisotropy = (g - f) / (1 - f);
+        if (optics.anisotropy < -kSharpest)
+            return badInput("water.forwardFraction is " + number(f) + ", expected at most " +
+                            number((g + kSharpest) / (1 + kSharpest)) + " for an anisotropy of " + number(g));
+        return {};
     }
     optics.phase = Optics::Phase::fournierForand;
     const FournierForand function = fournierForandOf(double(params.backscatter));
@@ -57,6 +61,7 @@ void choosePhase(const OpticsParams& params, Optics& optics) {
     const PhaseMoments rest = momentsOf(function, peak);
     optics.forwardFraction = float(1 - rest.total / all.total);
     optics.ffPeak = float(peak), optics.ffScale = float(1 / rest.total), optics.anisotropy = float(rest.meanCosine);
+    return {};
 }
 
 }  // namespace
@@ -85,8 +90,7 @@ Result<Optics> resolveOptics(const OpticsParams& params) {
     if (!a) return a.error();
     const Result<Vec3> b = chosen("water.scattering", params.scattering, medium->scattering);
     if (!b) return b.error();
-    const Result<Vec3> kd =
-        chosen("water.diffuseAttenuation", params.diffuseAttenuation, medium->diffuseAttenuation);
+    const Result<Vec3> kd = chosen("water.diffuseAttenuation", params.diffuseAttenuation, medium->diffuseAttenuation);
     if (!kd) return kd.error();
     optics.absorption = *a, optics.scattering = *b, optics.diffuseAttenuation = *kd;
     for (int i = 0; i < 3; ++i) {
@@ -96,11 +100,12 @@ Result<Optics> resolveOptics(const OpticsParams& params) {
         if (own && !given)
             channel(optics.diffuseAttenuation, i) = float(kirk(double(absorption), double(channel(*b, i)), 1));
         if (absorption > channel(optics.diffuseAttenuation, i) * (1 + 1e-5f))
-            return badInput(std::string("water.diffuseAttenuation is ") + number(channel(optics.diffuseAttenuation, i)) +
-                            " in " + kChannels[i] + ", expected at least the absorption " + number(absorption));
+            return badInput(std::string("water.diffuseAttenuation is ") +
+                            number(channel(optics.diffuseAttenuation, i)) + " in " + kChannels[i] +
+                            ", expected at least the absorption " + number(absorption));
     }
     optics.index = params.index;
-    choosePhase(params, optics);
+    if (Result<void> ok = choosePhase(params, optics); !ok) return ok.error();
     return optics;
 }
 
@@ -127,8 +132,7 @@ float phaseFunction(const Optics& optics, float cosTheta) {
         return float((1 - g * g) / (4 * kPiD * d * std::sqrt(d)));
     }
     const double sine2 = std::clamp(0.5 - 0.5 * c, double(optics.ffPeak), 1.0);
-    return float(double(optics.ffScale) *
-                 FournierForand{double(optics.ffIndex), double(optics.ffSlope)}.at(sine2));
+    return float(double(optics.ffScale) * FournierForand{double(optics.ffIndex), double(optics.ffSlope)}.at(sine2));
 }
 
 }  // namespace shoal::water

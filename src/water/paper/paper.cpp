@@ -320,7 +320,7 @@ void PaperMethod::compose(const frame::Context& context, const PaperParams&, con
     if (!s.caustics.usable() || !s.godrays.usable()) return;
     const gl::PassScope pass(context.timer, "paper compose");
     if (outputs.direct) {
-        setPaperHeights(s.values, context);
+        setPaperPixels(s.values, context);
         s.block.write(s.values);
         s.block.bindUniform(SHOAL_BLOCK_WATER_PASS);
         bindPlain(0, caustics());

@@ -6,23 +6,31 @@
 namespace shoal::water {
 namespace {
 
+constexpr float kWallM = 0.02f;  // a basin's walls stand where its water ends: they are lit too
+
 Vec4 withW(Vec3 v, float w) { return {v.x, v.y, v.z, w}; }
 
 // Metres that a pixel of a buffer so high covers, 1 m away (orthographic: anywhere).
 float metresPerPixel(const light::View& eye, int height) { return 2 / (eye.clipFromView(1, 1) * float(height)); }
 
-// World y of a pixel is affine in the pixel, at view depth 0 (origin) and per metre of view depth (ray).
-void setHeights(PaperBlock& block, const light::View& eye, const Mat4& viewFromClip) {
-    const auto originAndRay = [&](float x, float y) {
+// The world place of a pixel is affine in the pixel, at view depth 0 (origin) and per metre of view depth (ray).
+void setPixels(PaperBlock& block, const light::View& eye, const Mat4& viewFromClip) {
+    struct Line {
+        Vec3 origin, ray;
+    };
+    const auto lineOf = [&](float x, float y) {
         const Vec3 p = transformPoint(viewFromClip, {2 * x / float(eye.width) - 1, 2 * y / float(eye.height) - 1, 1});
         const Vec3 origin = eye.orthographic ? Vec3{p.x, p.y, 0} : Vec3{};
         const Vec3 ray = eye.orthographic ? Vec3{0, 0, -1} : p / -p.z;
-        return Vec2{transformPoint(eye.worldFromView, origin).y, transformDirection(eye.worldFromView, ray).y};
+        return Line{transformPoint(eye.worldFromView, origin), transformDirection(eye.worldFromView, ray)};
     };
     const float width = float(eye.width), height = float(eye.height);
-    const Vec2 corner = originAndRay(0, 0), right = originAndRay(width, 0), top = originAndRay(0, height);
-    block.originY = {corner.x, (right.x - corner.x) / width, (top.x - corner.x) / height, 0};
-    block.rayY = {corner.y, (right.y - corner.y) / width, (top.y - corner.y) / height, 0};
+    const Line corner = lineOf(0, 0), right = lineOf(width, 0), top = lineOf(0, height);
+    block.origin[0] = withW(corner.origin, 0), block.pixelRay[0] = withW(corner.ray, 0);
+    block.origin[1] = withW((right.origin - corner.origin) / width, 0);
+    block.origin[2] = withW((top.origin - corner.origin) / height, 0);
+    block.pixelRay[1] = withW((right.ray - corner.ray) / width, 0);
+    block.pixelRay[2] = withW((top.ray - corner.ray) / height, 0);
 }
 
 void setLight(PaperBlock& block, const PaperLight& light) {
@@ -53,9 +61,9 @@ PaperBufferSizes paperBufferSizes(const light::View& eye, const PaperParams& par
     return {size(params.causticScale), size(params.godrayScale)};
 }
 
-void setPaperHeights(PaperBlock& block, const frame::Context& context) {
+void setPaperPixels(PaperBlock& block, const frame::Context& context) {
     const Mat4 clipFromView = light::jittered(context.view, context.jitterPx.x, context.jitterPx.y);
-    setHeights(block, context.view, inverse(clipFromView).value_or(context.view.viewFromClip));
+    setPixels(block, context.view, inverse(clipFromView).value_or(context.view.viewFromClip));
 }
 
 PaperBlock makePaperBlock(const frame::Context& context, const PaperParams& params, const Body& body,
@@ -66,7 +74,9 @@ PaperBlock makePaperBlock(const frame::Context& context, const PaperParams& para
     PaperBlock block{};
     block.clipFromWorld = clipFromView * eye.viewFromWorld;
     setLight(block, light);
-    setPaperHeights(block, context);
+    setPaperPixels(block, context);
+    const BodyParams& b = body.params;
+    block.area = {b.areaMin.x - kWallM, b.areaMin.y - kWallM, b.areaMax.x + kWallM, b.areaMax.y + kWallM};
     block.water = {body.params.level, body.optics.index, float(kPaperShadowResolution), params.waterMask ? 1.0f : 0.0f};
     block.eye = withW(eye.eye, eye.nearZ);
     const Mat4& w = eye.worldFromView;

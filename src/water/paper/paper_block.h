@@ -14,6 +14,6 @@ PaperBufferSizes paperBufferSizes(const light::View& eye, const PaperParams& par
 PaperBlock makePaperBlock(const frame::Context& context, const PaperParams& params, const Body& body,
                           const PaperLight& light);
 // The part that changes from sample to sample: where pixels are.
-void setPaperHeights(PaperBlock& block, const frame::Context& context);
+void setPaperPixels(PaperBlock& block, const frame::Context& context);
 
 }  // namespace shoal::water

@@ -58,13 +58,12 @@ std::array<Vec3, 8> frustumCorners(const light::View& eye, float farZ) {
     return corners;
 }
 
-// What receives light: the scene under water, not farther from the water's edge than it is deep.
-Bounds receiverBounds(const Body& body, const Bounds& scene, float waveHeight) {
-    Bounds b = scene;
-    b.hi.y = std::min(b.hi.y, body.params.level + waveHeight);
-    const float reach = body.params.level - b.lo.y;
-    b.lo.x = std::max(b.lo.x, body.params.areaMin.x - reach), b.hi.x = std::min(b.hi.x, body.params.areaMax.x + reach);
-    b.lo.z = std::max(b.lo.z, body.params.areaMin.y - reach), b.hi.z = std::min(b.hi.z, body.params.areaMax.y + reach);
+// Where light is seen: the water over the scene, from its bottom to the surface (god rays need nothing to fall on).
+Bounds waterBounds(const Body& body, const Bounds& scene, float waveHeight) {
+    const BodyParams& p = body.params;
+    Bounds b;
+    b.lo = {std::max(scene.lo.x, p.areaMin.x), scene.lo.y, std::max(scene.lo.z, p.areaMin.y)};
+    b.hi = {std::min(scene.hi.x, p.areaMax.x), p.level + waveHeight, std::min(scene.hi.z, p.areaMax.y)};
     if (b.lo.x > b.hi.x || b.lo.y > b.hi.y || b.lo.z > b.hi.z) return {};
     return b;
 }
@@ -199,14 +198,14 @@ PaperLight fitPaperLight(const light::View& eye, const PaperParams& params, cons
     fit.middle = eye.eye + look * (0.5f * (eye.nearZ + fit.farZ));
 
     const WaveBounds waves = body.waves ? body.waves->bounds() : WaveBounds{};
-    const Bounds receivers = receiverBounds(body, sceneBounds, float(waves.height));
-    if (receivers.empty()) return fit;
-    const VisiblePoints visible = visiblePoints(frustumCorners(eye, fit.farZ), receivers);
+    const Bounds water = waterBounds(body, sceneBounds, float(waves.height));
+    if (water.empty()) return fit;
+    const VisiblePoints visible = visiblePoints(frustumCorners(eye, fit.farZ), water);
     if (visible.count == 0) return fit;
     const bool sunUp =
         lights.sun && normalize(lights.sun->toSun).y > kLowestSun && luminance(lights.sun->irradiance) > 0;
     if (sunUp)
-        fitSun(fit, eye, body, *lights.sun, sceneBounds, visible, body.params.level - receivers.lo.y);
+        fitSun(fit, eye, body, *lights.sun, sceneBounds, visible, body.params.level - water.lo.y);
     else if (const light::PunctualLight* lamp = lampAbove(lights, body.params.level))
         fitLamp(fit, body, *lamp, visible);
     fit.maskMin = {std::max(fit.maskMin.x, body.params.areaMin.x), std::max(fit.maskMin.y, body.params.areaMin.y)};

@@ -7,8 +7,8 @@
 
 namespace shoal::water {
 
-// Cell (i, j) has its middle at ((first + i + 0.5) cellM, ...): the same cells whichever way the slot's square moves, as
-// long as its texel and margin stay.
+// Cell (i, j) has its middle at ((first + i + 0.5) cellM, ...): the same cells whichever way the slot's square moves,
+// as long as its texel and margin stay.
 struct EmissionLattice {
     float cellM = 0;
     int firstX = 0, firstZ = 0;

@@ -8,8 +8,7 @@
 
 namespace shoal::water {
 
-Entry enterWater(const WaveField& waves, double x, double z, DVec3 travel, double index) {
-    const WaveSample wave = waves.at(x, z);
+Entry enterWater(const WaveSample& wave, double x, double z, DVec3 travel, double index) {
     Entry entry;
     entry.position = {x, wave.h, z};
     const double toSlope = std::sqrt(1 + wave.hx * wave.hx + wave.hz * wave.hz);  // area of surface per level area

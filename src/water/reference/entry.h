@@ -17,7 +17,7 @@ struct Entry {
     double transmitted = 0;  // share of it that enters
 };
 // travel: unit, where the light travels to, down.
-Entry enterWater(const WaveField& waves, double x, double z, DVec3 travel, double index);
+Entry enterWater(const WaveSample& wave, double x, double z, DVec3 travel, double index);
 
 // Whether another wave stands between a point of the surface and the light. Steps as far as the slope bound allows, so
 // that no crest is missed that is wider than a 64th of the shortest wave.

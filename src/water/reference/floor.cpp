@@ -70,7 +70,7 @@ FloorResult traceFloor(const WaveField& waves, double index, double attenuation,
         const Jitter jitter = jitterOf(column, row, seed);
         const double x = from.minX + (column + jitter.x) * cellX, z = from.minZ + (row + jitter.z) * cellZ;
         const DiscSample light = sampleDisc(travel, discHalfAngle, column, row, seed);
-        const Entry entry = enterWater(waves, x, z, light.travel, index);
+        const Entry entry = enterWater(waves.at(x, z), x, z, light.travel, index);
         const double fall = depth + entry.position.y;
         if (entry.incident <= 0 || entry.refracted.y >= 0 || fall <= 0) return;
         if (shadedByWaves(waves, bounds, entry.position, -light.travel, 1e30)) return;

@@ -25,7 +25,7 @@ struct LightSlotRecord {
     vec4 airHeight;   // the same of the air layer
     vec4 reach;       // x: top, y: bottom (world y), z: level, w: greatest travel m
     vec4 flags;       // x: light (-1 sun), y: 1 reflected, z: cascade, w: 1 where the air layer is drawn
-    vec4 rows;        // row of a depth texture for texel row j: x j + y; z: group: slots of one light and side share it; w: metres
+    vec4 rows;        // row of a depth texture for texel row j: x j + y; z: the first slot that is of another light or side; w: metres
                       // beyond the square that light which ends in it may start
     vec4 irradiance;  // rgb: W/m2 of map value 1 (sun: E_perp; lamp: right under it on the level); w: radius that the
                       // light's size blurs by, metres a metre of travel right below it

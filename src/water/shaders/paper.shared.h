@@ -31,8 +31,9 @@ SHOAL_PAPER_BLOCK_BEGIN {
     vec4 lines;               // width in the buffer's normalised coordinates x, y; size of the buffer px x, y
     vec4 grids;               // offset of the four photons from a grid point: x caustics, y god rays
     vec4 maskArea;            // x, z of the water in the light's view: least and greatest
-    vec4 originY;             // world y of a pixel at view depth d: (x + y px + z py) + d (ray: x + y px + z py)
-    vec4 rayY;
+    vec4 area;                // least x, z and greatest x, z of the water
+    vec4 origin[3];           // world place of a pixel at view depth d: origin + d ray, each [0] + px [1] + py [2]
+    vec4 pixelRay[3];
 }
 #ifndef __cplusplus
 paper

@@ -21,7 +21,7 @@ void point(vec2 at) {
     float sizeM = sizePx * paper.points.z * (paper.eyeAxis.w > 0.0 ? 1.0 : fromEye);
     vec3 towardsEye = paper.eyeAxis.w > 0.0 ? -paper.eyeAxis.xyz : -away / fromEye;
     vec4 nearer = paper.clipFromWorld * vec4(hit + towardsEye * min(sizeM, 0.5 * fromEye), 1.0);
-    place.z = nearer.w > 0.0 ? nearer.z / nearer.w * place.w : place.z;
+    if (nearer.w > 0.0 && place.z < place.w) place.z = min(nearer.z / nearer.w, 1.0) * place.w;
     gl_Position = place;
     gl_PointSize = sizePx;
     outLight = paper.causticLight.rgb * (photon.light * exp(-paper.causticLight.w * photon.reach));

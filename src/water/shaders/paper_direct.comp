@@ -12,9 +12,10 @@ void main() {
     if (any(greaterThanEqual(pixel, size))) return;
     vec2 at = vec2(pixel) + 0.5;
     float depth = texelFetch(viewDepth, pixel, 0).x;
-    vec3 place = vec3(1.0, at);
-    float y = dot(paper.originY.xyz, place) + depth * dot(paper.rayY.xyz, place);
-    bool under = depth > 0.0 && y < paper.water.x;
+    vec3 place = paper.origin[0].xyz + at.x * paper.origin[1].xyz + at.y * paper.origin[2].xyz;
+    place += depth * (paper.pixelRay[0].xyz + at.x * paper.pixelRay[1].xyz + at.y * paper.pixelRay[2].xyz);
+    bool inArea = all(greaterThanEqual(place.xz, paper.area.xy)) && all(lessThanEqual(place.xz, paper.area.zw));
+    bool under = depth > 0.0 && place.y < paper.water.x && inArea;
     vec4 light = vec4(textureLod(caustics, at / vec2(size), 0.0).rgb, 1.0);
     imageStore(directImage, pixel, under ? light : vec4(0.0));
 }

@@ -13,7 +13,8 @@ layout(location = 2) flat out vec4 outRay;      // xyz: where it travels, unit; 
 
 void corner(vec4 place, vec2 side, vec3 fromEye, float fromSurface, vec4 ray) {
     gl_Position = vec4(place.xy + side * place.w, place.zw);
-    outFromEye = fromEye;
+    // An orthographic eye sees along its axis everywhere.
+    outFromEye = paper.eyeAxis.w > 0.0 ? dot(fromEye, paper.eyeAxis.xyz) * paper.eyeAxis.xyz : fromEye;
     outFromSurface = fromSurface;
     outRay = ray;
     EmitVertex();

@@ -105,6 +105,8 @@ Photon photonAt(vec2 xz, int slot) {
     p.flux = lit ? arriving * cosIn * slant * (up ? 1.0 - through : through) : 0.0;
     p.perTravel = 1.0 / abs(r.y);
     p.drift = r.xz * p.perTravel;
+    vec4 area = waterBlock.area;
+    if (any(lessThan(xz, area.xy)) || any(greaterThan(xz, area.zw))) p.flux = 0.0;
     p.dimming = up ? 0.0 : waterBlock.beamAttenuation.w * p.perTravel;
 #ifndef NO_WAVE_SHADOWS
     p.flux *= waveVisibility(p.start, d);
@@ -154,29 +156,41 @@ vec2 photonPlace(Photon p, int slot, float travel) {
 
 // Metres of travel from the surface to what the photon meets, layer of the depth maps that it lies in; -1: nothing.
 // Light space keeps the way short: where the mean direction's depth is looked up at the photon's own place, few steps
-// find the place whose depth is its own. Where they do not, the photon passes behind an edge: it goes on to the layer
-// behind.
+// find the place whose depth is its own. Where they do not, the photon passes behind an edge: it meets what lies
+// farthest from the light there.
 float photonTravel(Photon p, int slot, out int layer) {
     const int kSteps = 4;
+    const float kSamePlace = 0.5;   // texels: nearer places look up one height
+    int size = int(lightSpace.counts.y);
+    vec4 rows = lightSpace.slots[slot].rows;
+    vec4 place = lightSpace.slots[slot].place, height = lightSpace.slots[slot].height;
     float side = lightSpace.slots[slot].mean.w, reach = lightSpace.slots[slot].reach.w;
-    float texel = lightSpace.slots[slot].place.z;
+    // Counted from the world's texel 0, so that a map that moved gives the same numbers.
+    ivec2 corner = ivec2(floor(place.xy * place.w + 0.5));
+    float travel = -1.0;
     layer = 0;
-    float travel = 0.0;
-    for (int k = 0; k < 2; ++k) {
-        bool found = false;
+    bool found = false;
+    for (int pass = 0; pass < 2 && !found; ++pass) {
         travel = 0.0;
+        vec2 here = photonPlace(p, slot, 0.0) * place.w;
         for (int i = 0; i < kSteps && !found; ++i) {
-            ivec2 at = ivec2(floor(lightTexelOf(photonPlace(p, slot, travel), slot)));
-            float height = litHeight(at, slot, k);
-            float next = side * (height - p.start.y);
-            // Two heights a texel of drift apart are one sloped surface.
-            found = abs(next - travel) < 0.25 * texel;
-            travel = height < 0.5 * kNothingLit ? next : reach;
+            // Beyond the rim goes on what is at the rim.
+            ivec2 texel = clamp(ivec2(floor(here)) - corner, ivec2(0), ivec2(size - 1));
+            texel.y = int(rows.x) * texel.y + int(rows.y);
+            float depth = texelFetch(litDepth, ivec3(texel, 2 * slot), 0).x;
+            layer = 0;
+            if (pass == 1) {
+                float behind = texelFetch(litDepth, ivec3(texel, 2 * slot + 1), 0).x;
+                if (behind > 0.0) layer = 1, depth = behind;
+            }
+            float next = depth > 0.0 ? max(side * (heightOfDepth(depth, height) - p.start.y), 0.0) : reach;
+            vec2 there = photonPlace(p, slot, next) * place.w;
+            found = depth > 0.0 && dot(there - here, there - here) < kSamePlace * kSamePlace;
+            travel = next;
+            here = there;
         }
-        layer = k;
-        if (found) return max(travel, 0.0);
     }
-    return -1.0;
+    return found ? travel : -1.0;
 }
 
 vec4 photonJacobian(Photon p, int slot, float travel) {

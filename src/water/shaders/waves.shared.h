@@ -20,10 +20,9 @@ using vec4 = Vec4;
 SHOAL_WAVE_BLOCK_BEGIN {
     vec4 counts;                              // x: plane waves, y: tiles, z: texels a side of a tile, w: mip levels
     vec4 bounds;                              // WaveBounds: height m, slope, shortest wavelength m
-    vec4 circular;                            // amplitude m (0: none), k 1/m, phase, unused
-    vec4 center;                              // x, z of the circular wave
-    vec4 planes[SHOAL_MAX_PLANE_WAVES];       // amplitude m, kx, kz, phase
-    vec4 planeTurns[SHOAL_MAX_PLANE_WAVES];   // kx, kz over 2 pi: first parts, second parts
+    vec4 circular;                            // amplitude m (0: none), k 1/m, phase in whole turns, k in turns a metre
+    vec4 center;                              // x, z of the circular wave; unit of the planes' first parts, 1 / unit
+    vec4 planes[SHOAL_MAX_PLANE_WAVES];       // amplitude m, waves a metre along x, z, phase in whole turns
     vec4 tiles[SHOAL_MAX_WAVE_TILES];         // texels a metre: first part, second part; metres a texel; period m
 }
 #ifndef __cplusplus

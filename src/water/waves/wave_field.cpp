@@ -8,13 +8,15 @@
 #include <shoal/core/math.h>
 #include <shoal/water/waves.h>
 
+#include "water/waves/heightmap_tile.h"
+#include "water/waves/ocean_tiles.h"
+#include "water/waves/perlin_noise.h"
 #include "water/waves/tile_source.h"
 
 namespace shoal::water {
 namespace {
 
-constexpr double kGravity = 9.80665;  // m/s2
-constexpr double kSteepest = 4;       // slope a height field may have; the drawn surface and its refraction end there
+constexpr double kSteepest = 4;  // slope a height field may have; the drawn surface and its refraction end there
 constexpr std::size_t kMostPlanes = 64;
 
 std::uint64_t nextRevision() {
@@ -31,6 +33,11 @@ std::string number(double value) {
 
 struct MovingPlane {
     double amplitude = 0, kx = 0, kz = 0, phase = 0, omega = 0;
+    // As the GPU has it, in 32 bits: far from the origin the last bits of a wave number count.
+    void round() {
+        kx = 2 * kPiD * double(float(kx / (2 * kPiD)));
+        kz = 2 * kPiD * double(float(kz / (2 * kPiD)));
+    }
 };
 
 }  // namespace
@@ -68,6 +75,7 @@ Result<MovingPlane> movingPlane(const WaveComponentParams& c, double periodM, st
     } else {
         w.kx = 2 * kPiD / periodM * double(c.m), w.kz = 2 * kPiD / periodM * double(c.q);
     }
+    w.round();
     const double k = std::hypot(w.kx, w.kz);
     if (!(k > 0)) return badInput(name + " has no wavelength: expected m and q, or wavelength");
     w.omega = std::sqrt(kGravity * k);
@@ -89,17 +97,20 @@ void WaveField::State::move() {
     };
     planes.clear();
     for (const MovingPlane& w : moving)
-        planes.push_back({float(w.amplitude), float(w.kx), float(w.kz), turned(w.phase, w.omega)});
+        planes.push_back(
+            {float(w.amplitude), float(w.kx / (2 * kPiD)), float(w.kz / (2 * kPiD)), turned(w.phase, w.omega)});
     circular.phase = turned(0, circularOmega);
-    if (source) source->fill(seconds, tiles);
-    revision = nextRevision();
+    const bool tilesMoved = source && source->fill(seconds, tiles);
+    const bool moved = !moving.empty() || circular.amplitude != 0 || tilesMoved;
+    if (moved || revision == 0) revision = nextRevision();
 }
 
 WaveBounds WaveField::State::sum() const {
     WaveBounds b;
     const auto add = [&](double height, double slope, double wavelength) {
         if (!(height > 0)) return;
-        b.height += height, b.slope += slope;
+        // The numbers handed out are rounded to 32 bits.
+        b.height += height * (1 + 1e-6), b.slope += slope * (1 + 1e-6);
         if (wavelength > 0) b.wavelength = b.wavelength > 0 ? std::min(b.wavelength, wavelength) : wavelength;
     };
     for (const MovingPlane& w : moving) {
@@ -122,38 +133,60 @@ WaveField::WaveField(WaveField&&) noexcept = default;
 WaveField& WaveField::operator=(WaveField&&) noexcept = default;
 WaveField::~WaveField() = default;
 
+namespace {
+
+Result<void> addComponents(WaveField::State& state, std::span<const WaveComponentParams> components) {
+    if (components.empty()) return badInput("waves.components is empty, expected at least 1 for kind sum");
+    if (components.size() > kMostPlanes)
+        return badInput("waves.components has " + std::to_string(components.size()) + " waves, expected at most " +
+                        std::to_string(kMostPlanes));
+    for (std::size_t i = 0; i < components.size(); ++i) {
+        Result<MovingPlane> w = movingPlane(components[i], double(state.params.periodM), i);
+        if (!w) return w.error();
+        state.moving.push_back(*w);
+    }
+    return {};
+}
+
+// The two surfaces of the paper: a cosine and a share of noise.
+void addCosine(WaveField::State& state, bool circular) {
+    const WaveParams& p = state.params;
+    const double noise = double(p.noise < 0 ? (circular ? 0.15f : 0.6f) : p.noise);
+    const double amplitude = double(p.amplitude) * (1 - noise), k = 2 * kPiD / double(p.wavelength);
+    if (circular) {
+        state.circular.amplitude = float(amplitude);
+        state.circular.k = float(k);
+        state.circularOmega = std::sqrt(kGravity * k);
+    } else {
+        state.moving.push_back({amplitude, k, 0, 0, std::sqrt(kGravity * k)});
+        state.moving.back().round();
+    }
+    if (noise > 0 && p.amplitude > 0)
+        state.source = makePerlinNoise({double(p.amplitude) * noise, double(p.wavelength) / 3, p.seed});
+}
+
+}  // namespace
+
 Result<WaveField> WaveField::create(const WaveParams& params, std::span<const WaveComponentParams> components,
                                     std::vector<Image> heightmaps) {
-    (void)heightmaps;
     if (Result<void> ok = validate(params); !ok) return badInput("waves." + ok.error().message);
     auto state = std::make_unique<State>();
     state->params = params;
     const char* steepField = "amplitude";
     if (params.kind == "sum") {
-        if (components.empty()) return badInput("waves.components is empty, expected at least 1 for kind sum");
-        if (components.size() > kMostPlanes)
-            return badInput("waves.components has " + std::to_string(components.size()) + " waves, expected at most " +
-                            std::to_string(kMostPlanes));
-        for (std::size_t i = 0; i < components.size(); ++i) {
-            Result<MovingPlane> w = movingPlane(components[i], double(params.periodM), i);
-            if (!w) return w.error();
-            state->moving.push_back(*w);
-        }
+        if (Result<void> ok = addComponents(*state, components); !ok) return ok.error();
         steepField = "components";
     } else if (params.kind == "circular" || params.kind == "turbulent") {
-        const bool circular = params.kind == "circular";
-        const double noise = double(params.noise < 0 ? (circular ? 0.15f : 0.6f) : params.noise);
-        const double amplitude = double(params.amplitude) * (1 - noise), k = 2 * kPiD / double(params.wavelength);
-        if (circular) {
-            state->circular.amplitude = float(amplitude);
-            state->circular.k = float(k);
-            state->circularOmega = std::sqrt(kGravity * k);
-        } else {
-            state->moving.push_back({amplitude, k, 0, 0, std::sqrt(kGravity * k)});
-        }
+        addCosine(*state, params.kind == "circular");
+    } else if (params.kind == "ocean") {
+        if (params.gain > 0) state->source = makeOceanTiles(params);
+        steepField = "gain";
+    } else if (params.kind == "heightmap") {
+        auto made = makeHeightmapTile(std::move(heightmaps), params.periodM, params.gain, params.fps);
+        if (!made) return made.error();
+        state->source = *std::move(made);
+        steepField = "gain";
     }
-    if (params.kind == "ocean" || params.kind == "heightmap")
-        return badInput("waves.kind " + params.kind + " is not there yet");
     state->bounds = state->sum();
     if (Result<void> ok = checkSteepness(state->bounds, steepField); !ok) return ok.error();
     state->move();
@@ -161,9 +194,10 @@ Result<WaveField> WaveField::create(const WaveParams& params, std::span<const Wa
 }
 
 void WaveField::setTime(double seconds) {
-    if (seconds == state_->time) return;
+    if (seconds == state_->time || !std::isfinite(seconds)) return;
+    const bool still = state_->params.speed == 0;
     state_->time = seconds;
-    state_->move();
+    if (!still) state_->move();
 }
 
 double WaveField::time() const { return state_->time; }
@@ -176,7 +210,8 @@ std::uint64_t WaveField::revision() const { return state_->revision; }
 WaveSample WaveField::at(double x, double z) const {
     WaveSample w;
     for (const PlaneWave& p : state_->planes) {
-        const double kx = double(p.kx), kz = double(p.kz), angle = kx * x + kz * z + double(p.phase);
+        const double kx = 2 * kPiD * double(p.turnsX), kz = 2 * kPiD * double(p.turnsZ),
+                     angle = kx * x + kz * z + double(p.phase);
         const double c = double(p.amplitude) * std::cos(angle), s = -double(p.amplitude) * std::sin(angle);
         w.h += c, w.hx += s * kx, w.hz += s * kz;
         w.hxx -= c * kx * kx, w.hxz -= c * kx * kz, w.hzz -= c * kz * kz;

@@ -287,6 +287,28 @@ TEST(PosedBounds, AreThoseOfEveryVertexSkinnedWithItsMorphs) {
     expectNear(bounds.hi, expected.hi, 1e-5f);
 }
 
+// The same vertices one by one.
+TEST(PosedPositions, AreSkinnedWithTheirMorphsOrMovedWithTheirNode) {
+    const Model model = skinnedModel(5000);
+    const Primitive& primitive = model.meshes[0].primitives[0];
+    int node = 0;
+    while (model.nodes[std::size_t(node)].mesh < 0) ++node;
+    const std::vector<Vec3> positions = posedPositions(model, poseAt(model, 1), node, primitive);
+    ASSERT_EQ(positions.size(), primitive.vertexCount());
+    const Quat q = axisAngle({0, 0, 1}, 1.2f);
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+        const Vec3 p = primitive.positions[i] + primitive.morphTargets[0].positions[i] * 0.5f;
+        const Vec3 bent = rotate(q, p - Vec3{0, 1, 0}) + Vec3{0, 1, 0};
+        expectNear(positions[i], p * primitive.weights[i].x + bent * primitive.weights[i].y, 1e-5f);
+    }
+    Model moved = morphing();
+    moved.nodes[0].translation = {10, 0, 0};
+    Bounds bounds;
+    for (const Vec3 p : posedPositions(moved, poseAt(moved, 1), 0, moved.meshes[0].primitives[0])) bounds.add(p);
+    EXPECT_EQ(bounds.lo, posedBounds(moved, poseAt(moved, 1)).lo);
+    EXPECT_EQ(bounds.hi, posedBounds(moved, poseAt(moved, 1)).hi);
+}
+
 TEST(PosedBounds, SameBitsForAnyThreadCount) {
     const Model model = skinnedModel(50000);
     const Pose pose = poseAt(model, 0.7f);

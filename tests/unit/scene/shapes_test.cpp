@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <shoal/core/hash.h>
 #include <shoal/core/parallel.h>
+#include <shoal/core/pose.h>
 #include <shoal/scene/shape_kinds.h>
 #include <shoal/scene/shapes.h>
 
@@ -162,6 +163,15 @@ TEST(Shapes, ExtremeParametersWork) {
         make("plaza", {{"benches", "0"}, {"trees", "0"}, {"lamps", "0"}, {"walls", "false"}, {"center", "none"}}),
         "bare plaza");
     checkModel(make("rocks", {{"count", "1"}, {"area", "[0, 0]"}}), "one rock");
+    checkModel(make("reef", {{"rocks", "1"}, {"corals", "0"}, {"height", "0"}, {"area", "[0.5, 0.5]"}}), "bare reef");
+    checkModel(make("ruin", {{"length", "3"}, {"width", "2"}, {"columnHeight", "0.5"}, {"decay", "1"}}), "gone ruin");
+    checkModel(make("ruin", {{"decay", "0"}, {"overgrowth", "0"}, {"columns", "2"}, {"arch", "false"}}), "temple");
+    checkModel(make("seabed", {{"cells", "8"}, {"stones", "0"}, {"grass", "0"}, {"relief", "0"}, {"slope", "2"}}),
+               "bare seabed");
+    checkModel(make("fish", {{"count", "1"}, {"spread", "[0, 0, 0]"}, {"wander", "0"}, {"variation", "0"}}),
+               "one fish");
+    for (const char* species : {"sardine", "fusilier", "butterfly", "sergeant", "grouper"})
+        checkModel(make("fish", {{"species", species}, {"count", "2"}}), species);
     for (const char* surface : {"wood", "stone", "concrete", "sand", "grit", "tiles"})
         checkModel(make("box", {{"surface", surface}}), surface);
 }
@@ -175,7 +185,8 @@ TEST(Shapes, SameParametersSameBitsOnAnyThreadCount) {
 }
 
 TEST(Shapes, AnotherSeedIsAnotherShape) {
-    for (const char* kind : {"terrain", "rocks", "tank", "pier", "quay", "hall", "plaza"})
+    for (const char* kind :
+         {"terrain", "rocks", "tank", "pier", "quay", "hall", "plaza", "fish", "reef", "ruin", "seabed"})
         EXPECT_NE(hashOf(make(kind)), hashOf(make(kind, {{"seed", "2"}}))) << kind;
 }
 
@@ -234,6 +245,25 @@ TEST(Shapes, TextureRunsAlongTheTangentAndUpThePicture) {
     }
 }
 
+TEST(Shapes, ACylindersCapsAreTexturedInMetres) {
+    for (const char* height : {"0.5", "1.5", "6"}) {
+        const Model model =
+            make("cylinder", {{"surface", "stone"}, {"radius", "0.34"}, {"height", height}, {"bevel", "0.03"}});
+        const Primitive& p = model.meshes[0].primitives[0];
+        std::size_t cap = 0;
+        for (std::size_t i = 0; i < p.indices.size(); i += 3) {
+            const std::uint32_t a = p.indices[i], b = p.indices[i + 1], c = p.indices[i + 2];
+            const Vec3 n = cross(p.positions[b] - p.positions[a], p.positions[c] - p.positions[a]);
+            if (std::abs(n.y) < 0.999f * length(n)) continue;
+            const Vec2 d1 = p.uv0[b] - p.uv0[a], d2 = p.uv0[c] - p.uv0[a];
+            // A repetition covers 1.6 m: the triangle in texture space is as large as on the cap.
+            EXPECT_NEAR(std::abs(d1.x * d2.y - d2.x * d1.y) * 1.6f * 1.6f / length(n), 1, 1e-3) << height;
+            ++cap;
+        }
+        EXPECT_EQ(cap, 128u);
+    }
+}
+
 TEST(Shapes, ScenesHaveTheirMeasures) {
     const Bounds tank = boundsOf(make("tank", {{"width", "4"}, {"depth", "3"}, {"height", "2"}, {"thickness", "0.1"}}));
     EXPECT_NEAR(tank.size().x, 4.2, 0.2);
@@ -270,6 +300,92 @@ TEST(Shapes, AnIslandHasSeaAllRound) {
     EXPECT_GT(beach, p.vertexCount() / 100);
 }
 
+TEST(Shapes, SeaThingsHaveTheirMeasures) {
+    const Bounds reef = boundsOf(make("reef", {{"area", "[8, 6]"}, {"height", "2"}, {"corals", "40"}}));
+    EXPECT_GT(reef.size().x, 6);
+    EXPECT_LT(reef.size().x, 12);
+    EXPECT_GT(reef.hi.y, 1);
+    EXPECT_LT(reef.hi.y, 5);
+    const Bounds whole = boundsOf(make("ruin", {{"decay", "0"}, {"columnHeight", "4"}, {"arch", "false"}}));
+    EXPECT_GT(whole.hi.y, 0.78f + 4);  // three steps, a column, its beam
+    EXPECT_LT(whole.hi.y, 6);
+    const Bounds fallen = boundsOf(make("ruin", {{"decay", "1"}, {"columnHeight", "4"}, {"arch", "false"}}));
+    EXPECT_LT(fallen.hi.y, whole.hi.y - 0.5f);
+    EXPECT_GT(fallen.size().z, whole.size().z + 1);  // its columns lie beside it
+    const Model floor =
+        make("seabed", {{"size", "100"}, {"slope", "0.1"}, {"flat", "4"}, {"stones", "0"}, {"grass", "0"}});
+    const Primitive& sand = floor.meshes[0].primitives[0];
+    EXPECT_NEAR(sand.bounds.size().x, 100, 1e-3);
+    EXPECT_NEAR(sand.bounds.lo.y, -0.1 * 48, 1.5);
+    std::size_t fine = 0;  // half of the rows lie within a tenth of the width
+    for (const Vec3 p : sand.positions) {
+        fine += std::abs(p.x) < 10;
+        if (length(Vec3{p.x, 0, p.z}) < 2) {
+            EXPECT_LT(std::abs(p.y), 0.15f);
+        }
+    }
+    EXPECT_GT(fine, sand.vertexCount() / 2);
+}
+
+// A fish at a time: where the middle of its body is, and where it looks.
+struct Swimmer {
+    Vec3 at, ahead;
+};
+Swimmer swimmerAt(const Model& model, std::size_t fish, float time) {
+    Pose pose;
+    poseModel(model, 0, time, true, pose);
+    const Mat4& root = pose.modelFromNode[1 + 5 * fish];
+    return {transformPoint(root, {0, 0, 0}), normalize(transformDirection(root, {0, 0, 1}))};
+}
+
+TEST(Shapes, FishSwimForwardsRoundALoopThatCloses) {
+    const Model model = make("fish", {{"count", "5"}, {"radius", "4"}, {"speed", "0.8"}, {"length", "0.3"}});
+    ASSERT_EQ(model.clips.size(), 1u);
+    const float lap = model.clips[0].duration;
+    EXPECT_NEAR(lap, 2 * kPi * 4 / 0.8f, 1e-3);
+    for (std::size_t fish = 0; fish < 5; ++fish) {
+        float way = 0, turned = 0;
+        for (int i = 0; i < 400; ++i) {
+            const float time = lap * float(i) / 400;
+            const Swimmer now = swimmerAt(model, fish, time), next = swimmerAt(model, fish, time + lap / 400);
+            const Vec3 step = next.at - now.at;
+            EXPECT_GT(dot(normalize(step), now.ahead), 0.97f) << fish << " at " << time;
+            EXPECT_LT(length(step), 0.03f * 4) << fish << " at " << time;  // no jump where the clip starts again
+            way += length(step);
+            turned +=
+                std::atan2(now.at.z * next.at.x - now.at.x * next.at.z, now.at.x * next.at.x + now.at.z * next.at.z);
+        }
+        EXPECT_NEAR(way, 2 * kPi * 4, 6) << fish;
+        EXPECT_NEAR(turned, 2 * kPi, 1e-2) << fish;  // once round, counter-clockwise from above
+    }
+}
+
+TEST(Shapes, FishBendTheirTailsAndKeepTheirHeads) {
+    const Model model = make("fish", {{"count", "1"}, {"spread", "[0, 0, 0]"}, {"wander", "0"}, {"variation", "0"}});
+    const Skin& skin = model.skins.at(0);
+    ASSERT_EQ(skin.joints.size(), 4u);
+    float mostTail = 0, mostHead = 0;
+    for (int i = 0; i < 200; ++i) {
+        Pose pose;
+        poseModel(model, 0, float(i) * 0.013f, true, pose);
+        const Mat4 fishFromModel = inverse(pose.modelFromNode[1]).value();
+        const auto bent = [&](std::size_t joint, Vec3 p) {  // sideways, in lengths of the fish
+            return std::abs(transformPoint(fishFromModel, transformPoint(pose.modelFromBind[0][joint], p * 0.22f)).x);
+        };
+        mostTail = std::max(mostTail, bent(3, {0, 0, -0.5f}));
+        mostHead = std::max(mostHead, bent(0, {0, 0, 0.5f}));
+    }
+    EXPECT_GT(mostTail, 0.07f);  // a tenth of the length is what swimming fish do [Bainbridge 1958]
+    EXPECT_LT(mostTail, 0.2f);
+    EXPECT_LT(mostHead, 0.05f);
+    // Every vertex hangs on at most two joints next to each other, and wholly.
+    for (const Primitive& p : model.meshes.at(0).primitives) {
+        ASSERT_EQ(p.joints.size(), p.vertexCount());
+        for (const Vec4& w : p.weights) EXPECT_NEAR(w.x + w.y + w.z + w.w, 1, 1e-5);
+    }
+    EXPECT_EQ(openEdges(model.meshes[0].primitives[0]), 0u);  // the body is closed
+}
+
 TEST(Shapes, ErrorsNameTheField) {
     const Result<Model> unknown = makeShape("teank", {});
     ASSERT_FALSE(unknown.has_value());
@@ -283,6 +399,12 @@ TEST(Shapes, ErrorsNameTheField) {
     EXPECT_NE(errorOf("box", "surface", "gold").find("surface"), std::string::npos);
     EXPECT_EQ(errorOf("rocks", "largest", "0.01").find("largest"), 0u);
     EXPECT_EQ(errorOf("plaza", "size", "300").find("slabSize"), 0u);
+    EXPECT_EQ(errorOf("fish", "radius", "0.5").find("spread"), 0u);
+    EXPECT_NE(errorOf("fish", "species", "herring").find("sardine"), std::string::npos);
+    EXPECT_NE(errorOf("fish", "count", "0").find("count"), std::string::npos);
+    EXPECT_NE(errorOf("reef", "rocks", "0").find("rocks"), std::string::npos);
+    EXPECT_NE(errorOf("ruin", "decay", "2").find("decay"), std::string::npos);
+    EXPECT_NE(errorOf("seabed", "cells", "3").find("cells"), std::string::npos);
     EXPECT_TRUE(describeShape("nothing").empty());
 }
 

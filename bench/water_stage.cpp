@@ -1,0 +1,71 @@
+#include "bench/water_stage.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+
+#include <shoal/scene/content.h>
+#include <shoal/scene/scene.h>
+
+namespace shoal::bench {
+
+Result<std::string> checksFolder() {
+    if (const char* given = std::getenv("SHOAL_CHECKS")) return std::string(given);
+    std::error_code error;
+    const std::filesystem::path binary = std::filesystem::read_symlink("/proc/self/exe", error);
+    const std::filesystem::path folder = binary.parent_path().parent_path() / "share" / "shoal" / "checks";
+    if (!error && std::filesystem::is_directory(folder, error)) return folder.string();
+    return badInput(folder.string() + ": no such folder, expected the check scenes there (or name it in SHOAL_CHECKS)");
+}
+
+Result<WaterStage> WaterStage::create(const Settings& settings) {
+    WaterStage stage;
+    gl::DeviceOptions options;
+    options.device = settings.device;
+    options.log = stderrSink();
+    SHOAL_TRY_ASSIGN(stage.device_, gl::Device::create(options));
+    SHOAL_TRY_ASSIGN(stage.pipeline_, pipeline::Pipeline::create(*stage.device_));
+    return stage;
+}
+
+Result<void> WaterStage::load(const std::string& scene, const Overrides& overrides) {
+    SHOAL_TRY_ASSIGN(const std::string folder, checksFolder());
+    std::vector<scene::Override> parsed;
+    for (const std::string& one : overrides) {
+        SHOAL_TRY_ASSIGN(scene::Override override, scene::parseOverride(one));
+        parsed.push_back(std::move(override));
+    }
+    SHOAL_TRY_ASSIGN(const scene::Scene read, scene::loadScene(folder + "/" + scene + ".toml", parsed));
+    SHOAL_TRY_ASSIGN(scene::Content content, scene::loadContent(read));
+    request_ = pipeline::requestFor(read.render);
+    return pipeline_->setScene(read, std::move(content));
+}
+
+Result<Image> WaterStage::draw(const std::string& aov) {
+    pipeline_->setAovs(std::vector<std::string>{aov});
+    SHOAL_TRY(pipeline_->render(request_));
+    SHOAL_TRY_ASSIGN(std::vector<Layer> layers, pipeline_->readAovs());
+    return std::move(layers[0].image);
+}
+
+Result<Image> WaterStage::draw(const std::string& aov, const light::Camera& camera) {
+    request_.camera = camera;
+    auto image = draw(aov);
+    request_.camera.reset();
+    return image;
+}
+
+std::string words(double x, double y, double z) {
+    char text[96];
+    std::snprintf(text, sizeof text, "[%.9g, %.9g, %.9g]", x, y, z);
+    return text;
+}
+
+double columnMean(const Image& image, int first, int end) {
+    double sum = 0;
+    for (int y = 0; y < image.height; ++y)
+        for (int x = first; x < end; ++x) sum += double(*image.at(x, y));
+    return sum / (double(image.height) * double(end - first));
+}
+
+}  // namespace shoal::bench

@@ -1,0 +1,46 @@
+// A check scene of tests/scenes on a device, for the rows of water: load it with overrides, read what it draws.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <shoal/core/image.h>
+#include <shoal/gl/device.h>
+#include <shoal/pipeline/pipeline.h>
+
+#include "bench/harness.h"
+
+namespace shoal::bench {
+
+using Overrides = std::vector<std::string>;  // "water.caustics.photons=160000"
+
+// Folder of the check scenes: share/shoal/checks beside the binary's folder, or SHOAL_CHECKS.
+Result<std::string> checksFolder();
+
+class WaterStage {
+public:
+    static Result<WaterStage> create(const Settings& settings);
+    // Loads tests/scenes/<scene>.toml.
+    Result<void> load(const std::string& scene, const Overrides& overrides = {});
+    // Draws a frame as the scene's [render] says and reads one AOV, row 0 on top.
+    Result<Image> draw(const std::string& aov);
+    // The same seen by another camera.
+    Result<Image> draw(const std::string& aov, const light::Camera& camera);
+    pipeline::Pipeline& pipeline() { return *pipeline_; }
+    gl::Device& device() { return *device_; }
+    pipeline::FrameRequest request() const { return request_; }
+
+private:
+    std::unique_ptr<gl::Device> device_;
+    std::unique_ptr<pipeline::Pipeline> pipeline_;
+    pipeline::FrameRequest request_;
+};
+
+// "[1, 2, 3]" for an override.
+std::string words(double x, double y, double z);
+
+// Mean over all rows and the columns [first, end) of channel 0.
+double columnMean(const Image& image, int first, int end);
+
+}  // namespace shoal::bench

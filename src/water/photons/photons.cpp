@@ -1,0 +1,344 @@
+// [Papadopoulos & Papaioannou 2010] trace photons through the water's surface into the picture as points of a fixed
+// size; here each is laid over its own footprint (photon_deposit.comp) in maps that stand still in the world.
+#include <shoal/water/photons.h>
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+
+#include <shoal/gl/program.h>
+#include <shoal/water/gpu_waves.h>
+
+#include "frame/fullscreen.h"
+#include "water/bindings.shared.h"
+#include "water/caustic.shared.h"
+#include "water/photons/emission.h"
+#include "water/surface/water_block.h"
+
+namespace shoal::water {
+
+struct Photons::State {
+    // What photon.io.glsl leaves out.
+    enum Variant { kPlain, kAir, kLowSun, kLamp, kVariants };
+    gl::Device* device = nullptr;
+    PhotonSetup setup;
+    const gl::Program* deposit[kVariants] = {};
+    const gl::Program *resolve = nullptr, *disc = nullptr, *mips = nullptr, *layers = nullptr;
+    const gl::Program *lookup = nullptr, *lookupDeep = nullptr, *lookupNoNormals = nullptr;
+    gl::Buffer deposits;  // of one slot at a time
+    gl::Buffer commands;  // work groups of the passes after the deposit, for one layer or two
+    gl::Texture sharp;    // its two layers before the light's disc blurs them
+    gl::Texture maps;
+    int mostFine = 1;  // deposit texels a side of a texel of the maps
+    int mipLevels = 1;
+    gl::BlockBuffer<WaterBlock> waterBlock;
+    gl::BlockBuffer<CausticBlock> causticBlock;
+    bool sunHasSlot = false;
+    std::int64_t photonCount = 0;
+};
+
+namespace {
+
+using State = Photons::State;
+
+constexpr int kMostMipLevels = 4;  // squares begin at multiples of 8 texels
+constexpr int kSharpLevels = 6;
+constexpr std::size_t kMostPasses = 2 + kSharpLevels + kMostMipLevels;  // of one slot after the deposit
+constexpr int kLargestFineMap = 1024;  // texels a side of maps that may be deposited twice as fine
+// Radius of the light's disc at the slot's bottom, texels: smaller ones are not seen, and up to the second one the map
+// that they blur must be twice as fine (convolving 512^2 bins by .9 texels leaves 12 % error, 1024^2 bins 2 %).
+constexpr double kSeenDisc = 0.5, kWideDisc = 2;
+constexpr double kReflectedShare = 0.25;
+
+Result<void> makePrograms(gl::Device& device, State& s) {
+    const std::vector<std::pair<std::string, std::string>> variants[State::kVariants] = {
+        {{"NO_LAMPS", ""}, {"NO_WAVE_SHADOWS", ""}, {"NO_AIR", ""}},
+        {{"NO_LAMPS", ""}, {"NO_WAVE_SHADOWS", ""}},
+        {{"NO_LAMPS", ""}},
+        {},
+    };
+    for (int i = 0; i < State::kVariants; ++i) {
+        SHOAL_TRY_ASSIGN(s.deposit[i],
+                         device.programs().get({{"water/photon_deposit.comp"}, variants[i], "photon deposit"}));
+    }
+    SHOAL_TRY_ASSIGN(s.resolve, device.programs().get({{"water/caustic_resolve.comp"}, {}, "caustic resolve"}));
+    SHOAL_TRY_ASSIGN(s.disc, device.programs().get({{"water/caustic_disc.comp"}, {}, "caustic disc"}));
+    SHOAL_TRY_ASSIGN(s.layers, device.programs().get({{"water/caustic_layers.comp"}, {}, "caustic layers"}));
+    SHOAL_TRY_ASSIGN(s.mips, device.programs().get({{"water/caustic_mips.comp"}, {}, "caustic mips"}));
+    const auto lookup = [&](std::vector<std::pair<std::string, std::string>> defines) {
+        return device.programs().get({{"water/caustic_lookup.comp"}, std::move(defines), "caustic lookup"});
+    };
+    SHOAL_TRY_ASSIGN(s.lookup, lookup({}));
+    SHOAL_TRY_ASSIGN(s.lookupDeep, lookup({{"NO_WATERLINE", ""}, {"NO_LAMPS", ""}}));
+    SHOAL_TRY_ASSIGN(s.lookupNoNormals, lookup({{"NO_NORMALS", ""}}));
+    return {};
+}
+
+// Photons of a slot: a light's photons are shared by its cascades; what the surface reflects is fainter.
+int photonsOf(const LightSlot& slot, std::span<const LightSlot> slots, int photons) {
+    int sharing = 0;
+    for (const LightSlot& other : slots)
+        if (other.light == slot.light && other.reflected == slot.reflected) ++sharing;
+    return std::max(int(double(photons) * (slot.reflected ? kReflectedShare : 1) / std::max(sharing, 1)), 64);
+}
+
+State::Variant variantOf(const LightSlot& slot, const Body& body, const BodyLights& lights, bool air) {
+    if (slot.light >= 0) return State::kLamp;
+    const Vec3 toSun = normalize(lights.sun->toSun);
+    const double rise = double(toSun.y) / std::max(double(std::hypot(toSun.x, toSun.z)), 1e-6);
+    const double slope = body.waves ? body.waves->bounds().slope : 0;
+    if (slope > rise) return State::kLowSun;
+    return air ? State::kAir : State::kPlain;
+}
+
+void depositSlot(State& s, const frame::Context& context, int index, const LightSlot& slot, int photons,
+                 State::Variant variant, double slope, int fine) {
+    const gl::PassScope pass(context.timer, "caustic photons");
+    const EmissionLattice lattice = emissionLattice(slot, s.setup.resolution, photons);
+    const double texelsPerM = fine / double(slot.texel), cellTexels = double(lattice.cellM) * texelsPerM;
+    const int side = s.setup.resolution * fine;
+    const double mostFlux = slot.light >= 0 ? 4 : std::min(4.0, std::sqrt(1 + slope * slope));
+    // All of the slot's flux in one texel still fits, with room for the rounding of each photon.
+    const double most = double(lattice.countX) * double(lattice.countZ) * (cellTexels * cellTexels * mostFlux);
+    const double units = std::exp2(std::floor(std::log2(0.98 * 4294967296.0 / most)));
+
+    const GLuint zero = 0;
+    glClearNamedBufferSubData(s.deposits.name(), GL_R32UI, 0,
+                              GLsizeiptr(sizeof(GLuint)) * (2 * GLsizeiptr(side) * side + 1), GL_RED_INTEGER,
+                              GL_UNSIGNED_INT, &zero);
+    const gl::Program& program = *s.deposit[variant];
+    program.set(0, index);
+    program.set(1, Vec4{float(lattice.firstX), float(lattice.firstZ), float(lattice.countX), float(lattice.countZ)});
+    program.set(2, Vec4{lattice.cellM, float(texelsPerM), float(units * cellTexels * cellTexels), float(side)});
+    const auto corner = [&](float origin) { return float(std::floor(double(origin) * texelsPerM + 0.5)); };
+    program.set(3, Vec3{corner(slot.origin.x), corner(slot.origin.y), float(mostFlux)});
+    s.deposits.bindStorage(SHOAL_STORAGE_WATER);
+    program.dispatch(lattice.countX, lattice.countZ);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    s.photonCount += std::int64_t(lattice.countX) * lattice.countZ;
+
+    s.resolve->set(1, float(1 / units));
+}
+
+// The passes after the deposit, in order: each covers `side` texels a side of one layer or two.
+class LayerPasses {
+public:
+    LayerPasses(State& s, int deposits) : state_(s), flag_(2 * deposits * deposits) {}
+
+    void add(const gl::Program& program, int side, std::function<void()> bind) {
+        const auto groups = [&](int axis) {
+            return std::uint32_t((side + program.localSize(axis) - 1) / program.localSize(axis));
+        };
+        passes_[count_] = {&program, std::move(bind)};
+        words_[3 * count_] = groups(0), words_[3 * count_ + 1] = groups(1), words_[3 * count_ + 2] = 2;
+        ++count_;
+    }
+    void run() {
+        state_.commands.writeAll(std::span<const std::uint32_t>(words_));
+        state_.deposits.bindStorage(SHOAL_STORAGE_WATER);
+        state_.commands.bindStorage(SHOAL_STORAGE_WATER + 1);
+        glProgramUniform2i(state_.layers->name(), 0, int(flag_), int(count_));
+        state_.layers->dispatch(1);
+        glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, state_.commands.name());
+        for (std::size_t i = 0; i < count_; ++i) {
+            glMemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
+                            GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
+            passes_[i].bind();
+            passes_[i].program->use();
+            glDispatchComputeIndirect(GLintptr(3 * sizeof(std::uint32_t) * i));
+        }
+        glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
+    }
+
+private:
+    struct Pass {
+        const gl::Program* program = nullptr;
+        std::function<void()> bind;
+    };
+    State& state_;
+    std::size_t flag_, count_ = 0;
+    std::array<Pass, kMostPasses> passes_;
+    std::array<std::uint32_t, 3 * kMostPasses> words_{};
+};
+
+void addMips(State& s, LayerPasses& passes, const gl::Texture& texture, int firstLayer, int side, int levels) {
+    for (int level = 1; level < levels; ++level)
+        passes.add(*s.mips, side >> level, [&s, &texture, firstLayer, side, level] {
+            gl::bindImage(0, texture, GL_READ_ONLY, level - 1);
+            gl::bindImage(1, texture, GL_WRITE_ONLY, level);
+            s.mips->set(0, firstLayer);
+            s.mips->set(1, side >> level);
+        });
+}
+
+int levelsFor(double radius) {
+    return std::clamp(1 + int(std::floor(std::log2(std::max(radius, 1.0)))), 1, kSharpLevels);
+}
+
+void resolveSlot(State& s, const frame::Context& context, int index, double disc, int fine) {
+    const gl::PassScope pass(context.timer, "caustic maps");
+    const int resolution = s.setup.resolution, side = resolution * fine;
+    const bool blurs = disc >= kSeenDisc;
+    // The second layer is dark unless a photon met it.
+    const float dark = 0;
+    for (int level = 0; level < s.mipLevels; ++level)
+        glClearTexSubImage(s.maps.name(), level, 0, 0, 2 * index + 1, resolution >> level, resolution >> level, 1,
+                           GL_RED, GL_FLOAT, &dark);
+    LayerPasses passes(s, side);
+    passes.add(*s.resolve, side, [&] {
+        gl::bindImage(0, blurs ? s.sharp : s.maps, GL_WRITE_ONLY);
+        glProgramUniform2i(s.resolve->name(), 0, side, blurs ? 0 : 2 * index);
+    });
+    if (blurs) {
+        const int levels = levelsFor(disc * fine);
+        addMips(s, passes, s.sharp, 0, side, levels);
+        passes.add(*s.disc, resolution, [&s, resolution, fine, index, levels] {
+            gl::bindTexture(0, s.sharp);
+            glBindSampler(0, 0);
+            gl::bindImage(0, s.maps, GL_WRITE_ONLY);
+            glProgramUniform4i(s.disc->name(), 0, resolution, fine, index, levels);
+        });
+    }
+    addMips(s, passes, s.maps, 2 * index, resolution, s.mipLevels);
+    passes.run();
+}
+
+Vec4 with(Vec3 v) { return {v.x, v.y, v.z, 0}; }
+
+// The view's rays as affine functions of the pixel.
+CausticBlock viewRays(const frame::Context& context) {
+    const light::View& view = context.view;
+    const Mat4 clipFromView = light::jittered(view, context.jitterPx.x, context.jitterPx.y);
+    const Mat4 viewFromClip = inverse(clipFromView).value_or(view.viewFromClip);
+    const auto nearAt = [&](float x, float y) { return transformPoint(viewFromClip, {x, y, 1}); };
+    const auto pointAt = [&](float x, float y) {
+        const Vec3 p = nearAt(x, y);
+        return view.orthographic ? transformDirection(view.worldFromView, {p.x, p.y, 0})
+                                 : transformDirection(view.worldFromView, p * (-1 / p.z));
+    };
+    const Vec3 at0 = pointAt(-1, -1);
+    const Vec3 dx = (pointAt(1, -1) - at0) / float(view.width), dy = (pointAt(-1, 1) - at0) / float(view.height);
+    CausticBlock block{};
+    const float pixelM = length(dy);
+    block.origin = with(view.eye), block.ray = with(at0), block.rayX = with(dx), block.rayY = with(dy);
+    block.size = {float(view.width), float(view.height), pixelM, 0};
+    if (view.orthographic) {
+        block.origin = with(view.eye + at0), block.originX = with(dx), block.originY = with(dy);
+        block.ray = with(transformDirection(view.worldFromView, {0, 0, -1}));
+        block.rayX = block.rayY = {};
+        block.size.z = 0, block.size.w = pixelM;
+    }
+    return block;
+}
+
+}  // namespace
+
+Photons::Photons(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Photons::Photons(Photons&&) noexcept = default;
+Photons& Photons::operator=(Photons&&) noexcept = default;
+Photons::~Photons() = default;
+
+Result<Photons> Photons::create(gl::Device& device, const PhotonSetup& setup) {
+    frame::registerFrameShaders();
+    registerWaterShaders();
+    auto state = std::make_unique<State>();
+    State& s = *state;
+    s.device = &device;
+    s.setup = setup;
+    SHOAL_TRY(makePrograms(device, s));
+    while (s.mipLevels < kMostMipLevels && setup.resolution % (1 << s.mipLevels) == 0) ++s.mipLevels;
+    gl::TextureDesc desc;
+    desc.target = GL_TEXTURE_2D_ARRAY;
+    desc.format = GL_R32F;
+    desc.width = desc.height = setup.resolution;
+    desc.layers = 2 * setup.maxSlots;
+    desc.levels = s.mipLevels;
+    desc.minFilter = GL_NEAREST_MIPMAP_NEAREST;
+    desc.label = "caustic maps";
+    s.maps = gl::Texture::create(device, desc);
+    s.mostFine = setup.resolution <= kLargestFineMap ? 2 : 1;
+    const std::size_t side = std::size_t(setup.resolution) * std::size_t(s.mostFine);
+    desc.width = desc.height = int(side);
+    desc.layers = 2;
+    desc.levels = kSharpLevels;
+    desc.label = "caustics before blur";
+    s.sharp = gl::Texture::create(device, desc);
+    s.deposits = gl::Buffer::create(device, (2 * side * side + 1) * sizeof(std::uint32_t), "photon deposits");
+    s.commands = gl::Buffer::create(device, 3 * kMostPasses * sizeof(std::uint32_t), "caustic work groups");
+    if (!s.maps || !s.sharp || !s.deposits || !s.commands) return internalError("no memory for caustic maps");
+    s.waterBlock = gl::BlockBuffer<WaterBlock>::create(device, "water");
+    s.causticBlock = gl::BlockBuffer<CausticBlock>::create(device, "caustics");
+    return Photons(std::move(state));
+}
+
+void Photons::render(const frame::Context& context, const PhotonParams& params, const Body& body,
+                     const BodyLights& lights, const LightViews& views) {
+    State& s = *state_;
+    s.waterBlock.write(makeWaterBlock(body, lights));
+    s.waterBlock.bindUniform(SHOAL_BLOCK_WATER);
+    body.gpuWaves->bind();
+    views.bind();
+    const std::span<const LightSlot> slots = views.slots();
+    s.sunHasSlot = false;
+    s.photonCount = 0;
+    const double slope = body.waves ? body.waves->bounds().slope : 0;
+    const bool air = views.airDrawn();
+    for (int i = 0; i < int(slots.size()) && i < s.setup.maxSlots; ++i) {
+        const LightSlot& slot = slots[std::size_t(i)];
+        s.sunHasSlot = s.sunHasSlot || (slot.light < 0 && !slot.reflected);
+        const double disc = double(slot.discRadius) / double(slot.texel);
+        const int fine = disc >= kSeenDisc && disc < kWideDisc ? s.mostFine : 1;
+        depositSlot(s, context, i, slot, photonsOf(slot, slots, params.photons), variantOf(slot, body, lights, air),
+                    slope, fine);
+        resolveSlot(s, context, i, disc, fine);
+    }
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+}
+
+void Photons::resolve(const frame::Context& context, const Body& body, const BodyLights& lights,
+                      const LightViews& views, const ReceiverInputs& inputs, const IrradianceOutputs& outputs) {
+    State& s = *state_;
+    const gl::PassScope pass(context.timer, "caustic lookup");
+    s.waterBlock.write(makeWaterBlock(body, lights));
+    s.waterBlock.bindUniform(SHOAL_BLOCK_WATER);
+    CausticBlock block = viewRays(context);
+    block.maps = {float(s.mipLevels), s.sunHasSlot ? 1.0f : 0.0f, 0, 0};
+    s.causticBlock.write(block);
+    s.causticBlock.bindUniform(SHOAL_BLOCK_WATER_PASS);
+    body.gpuWaves->bind();
+    views.bind();
+    gl::bindTexture(SHOAL_UNIT_CAUSTIC_MAPS, s.maps);
+    gl::bindTexture(0, inputs.viewDepth);
+    const bool normals = bool(inputs.normal);
+    if (normals) gl::bindTexture(1, inputs.normal);
+    for (const int unit : {0, 1, SHOAL_UNIT_CAUSTIC_MAPS}) glBindSampler(GLuint(unit), 0);
+    gl::bindImage(0, outputs.direct, GL_WRITE_ONLY);
+    gl::bindImage(1, outputs.ambient ? outputs.ambient : outputs.direct, GL_WRITE_ONLY);
+    const bool lamps =
+        std::any_of(views.slots().begin(), views.slots().end(), [](const LightSlot& slot) { return slot.light >= 0; });
+    const bool deep = !views.airDrawn() && !lamps;
+    const gl::Program& program = *(!normals ? s.lookupNoNormals : deep ? s.lookupDeep : s.lookup);
+    program.set(0, outputs.ambient ? 1 : 0);
+    program.dispatch(context.view.width, context.view.height);
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT);
+}
+
+gl::TextureView Photons::maps() const { return state_->maps.view(); }
+
+frame::Stats Photons::stats() const {
+    const State& s = *state_;
+    frame::Stats stats;
+    stats.bytes = std::int64_t(s.deposits.bytes());
+    for (const gl::Texture* texture : {&s.maps, &s.sharp})
+        for (int level = 0; level < texture->view().levels; ++level) {
+            const std::int64_t side = texture->width() >> level;
+            stats.bytes += side * side * texture->view().layers * std::int64_t(sizeof(float));
+        }
+    stats.counts = {{"photons", s.photonCount}};
+    return stats;
+}
+
+}  // namespace shoal::water

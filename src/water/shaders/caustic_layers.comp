@@ -1,0 +1,13 @@
+#version 450 core
+// How many layers of a slot the passes after the deposit work on: two only where a photon met the second.
+#include "water/bindings.shared.h"
+
+layout(local_size_x = 1) in;
+
+layout(std430, binding = SHOAL_STORAGE_WATER) readonly buffer Deposits { uint deposits[]; };
+layout(std430, binding = SHOAL_STORAGE_WATER + 1) writeonly buffer Commands { uint groups[]; };
+layout(location = 0) uniform ivec2 place;   // the word that tells whether the second layer is used; commands
+
+void main() {
+    for (int i = 0; i < place.y; ++i) groups[3 * i + 2] = deposits[place.x] != 0u ? 2u : 1u;
+}

@@ -1,0 +1,102 @@
+#version 450 core
+// Traces the photons of one slot and lays each one's flux over its footprint, a parallelogram in light space: every
+// texel gets the exact area that it shares with it. Sums are integers, so their order does not matter.
+// Sources: [Igehy 1999]; [Frisvad et al. 2014]; area coverage by edges as in scanline rasterisers [Catmull 1978].
+// Headroom: `units` (photons.cpp) is such that all photons of the slot in one texel do not fill 32 bits.
+#include "water/photon.io.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+// Two layers of side x side texels, then a word that tells whether the second is used.
+layout(std430, binding = SHOAL_STORAGE_WATER) buffer Deposits { uint deposits[]; };
+
+layout(location = 0) uniform int slot;
+layout(location = 1) uniform vec4 lattice;   // first cell's x, z; cells along x, z
+layout(location = 2) uniform vec4 cell;      // m; texels a metre; units that a photon of flux 1 brings; side in texels
+layout(location = 3) uniform vec3 corner;    // of the square, texels from the world's 0; the most flux a photon brings
+
+const float kThinnest = 0.06;      // texels: narrower footprints are made this wide
+const float kLeastRun = 0.01;      // texels: edges run at least so far along x and z
+const float kLargest = 48.0;       // texels across, for a footprint
+
+float awayFromZero(float x) { return x < 0.0 ? min(x, -kLeastRun) : max(x, kLeastRun); }
+
+// x where an edge from `start` along `edge` is at height y, clamped to its ends.
+float edgeAt(vec2 start, vec2 edge, float inverseRise, float y) {
+    return start.x + clamp((y - start.y) * inverseRise, 0.0, 1.0) * edge.x;
+}
+
+void main() {
+    ivec2 id = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(id, ivec2(lattice.zw)))) return;
+    Photon p = photonAt((lattice.xy + vec2(id) + 0.5) * cell.x, slot);
+    int layer;
+    float travel = photonTravel(p, slot, layer);
+    vec2 centre = photonPlace(p, slot, travel);
+    vec4 inner = lightSpace.slots[slot].inner;
+    bool wasted = all(greaterThan(centre, inner.xy)) && all(lessThan(centre, inner.zw));
+    vec4 j = photonJacobian(p, slot, travel) * (cell.x * cell.y);
+    float amount = travel >= 0.0 && !wasted ? min(p.flux, corner.z) * exp(-p.dimming * max(travel, 0.0)) * cell.z : 0.0;
+
+    // Edges of the footprint in texels: not thinner, not larger than what can be laid down.
+    vec2 a = j.xy, b = j.zw;
+    float spread = max(abs(a.x) + abs(b.x), abs(a.y) + abs(b.y));
+    if (spread > kLargest) a *= kLargest / spread, b *= kLargest / spread;
+    bool aLonger = dot(a, a) > dot(b, b);
+    vec2 longer = aLonger ? a : b;
+    float lengthLonger = max(length(longer), 1e-6);
+    vec2 across = vec2(-longer.y, longer.x) / lengthLonger;
+    float width = dot(aLonger ? b : a, across);
+    vec2 widen = across * ((width < 0.0 ? min(width, -kThinnest) : max(width, kThinnest)) - width);
+    if (lengthLonger < kThinnest) a = vec2(kThinnest, 0.0), b = vec2(0.0, kThinnest);
+    else if (aLonger) b += widen;
+    else a += widen;
+    a = vec2(awayFromZero(a.x), awayFromZero(a.y));
+    b = vec2(awayFromZero(b.x), awayFromZero(b.y));
+
+    // Relative to the texel of the centre, whose number counts from the world's 0: the same wherever the square is.
+    vec2 texels = centre * cell.y, home = floor(texels);
+    vec2 v0 = texels - home - 0.5 * (a + b), v1 = v0 + a, v3 = v0 + b, v2 = v1 + b;
+    vec2 lo = floor(min(min(v0, v1), min(v2, v3))), hi = ceil(max(max(v0, v1), max(v2, v3)));
+    vec2 origin = home - corner.xy;
+    lo = max(lo, -origin), hi = min(hi, vec2(cell.w) - origin);
+    float side = cell.w;
+    if (amount <= 0.0 || !(lo.x < hi.x && lo.y < hi.y)) hi = lo;
+    ivec2 first = ivec2(origin + lo), count = ivec2(hi - lo);
+
+    // Area left of X between two rows: the integral over y of (X - x)+ along the left edges less that along the right
+    // ones, (X - x)+^2 rise / (2 run) between an edge's ends.
+    float det = a.x * b.y - a.y * b.x;
+    det = det < 0.0 ? min(det, -1e-5) : max(det, 1e-5);
+    float density = amount / abs(det), turn = sign(det) * density;
+    float alongA = -turn * abs(a.y) / (2.0 * a.x), alongB = turn * abs(b.y) / (2.0 * b.x);
+    vec2 inverseRise = 1.0 / vec2(a.y, b.y);
+    // Edges along a from v0 and v3, along b from v0 and v1; x at the row's lower and upper end.
+    vec4 low = vec4(edgeAt(v0, a, inverseRise.x, lo.y), edgeAt(v3, a, inverseRise.x, lo.y),
+                    edgeAt(v0, b, inverseRise.y, lo.y), edgeAt(v1, b, inverseRise.y, lo.y));
+    vec4 along = vec4(alongA, -alongA, alongB, -alongB);
+    float laid = 0.0;
+    uint laidUnits = 0u;
+    int row = (layer * int(side) + first.y) * int(side) + first.x;
+    for (int y = 0; y < count.y; ++y) {
+        float upperY = lo.y + float(y) + 1.0;
+        vec4 high = vec4(edgeAt(v0, a, inverseRise.x, upperY), edgeAt(v3, a, inverseRise.x, upperY),
+                         edgeAt(v0, b, inverseRise.y, upperY), edgeAt(v1, b, inverseRise.y, upperY));
+        vec4 l = max(vec4(lo.x) - low, vec4(0.0)), h = max(vec4(lo.x) - high, vec4(0.0));
+        float left = dot(along, (l - h) * (l + h));
+        for (int x = 0; x < count.x; ++x) {
+            float upperX = lo.x + float(x) + 1.0;
+            l = max(vec4(upperX) - low, vec4(0.0)), h = max(vec4(upperX) - high, vec4(0.0));
+            float area = dot(along, (l - h) * (l + h));
+            // What is rounded off here is laid down in the next texel.
+            laid += max(area - left, 0.0);
+            left = area;
+            uint units = uint(laid + 0.5);
+            if (units > laidUnits) atomicAdd(deposits[row + x], units - laidUnits);
+            laidUnits = units;
+        }
+        low = high;
+        row += int(side);
+    }
+    if (laidUnits > 0u && layer > 0) atomicOr(deposits[2 * int(side) * int(side)], 1u);
+}

@@ -1,0 +1,87 @@
+#version 450 core
+// The light of the slices gathered along each path, at reduced size. What is kept is a mean source: radiance over what
+// an even source of 1 would give on that path. It changes little where paths end at different distances, so that the
+// full picture gets its edges from its own paths.
+#include "water/shaft_slices.io.glsl"
+#include "water/shaft_sun.io.glsl"
+#include "water/shaft_path.io.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+// rgb: mean source, W/(m3 sr); a: metres of path, 0: none
+layout(binding = 0, rgba32f) uniform writeonly image2D sourceImage;
+
+const float kFarthest = 7.0;   // optical depths of the clearest channel that are marched: e^-7 is a thousandth
+const int kStretches = 4;      // of equal steps, each stretch twice as long as the one before
+
+// Points spread evenly over pixels' 4 x 4 blocks and steps: multiples of the plastic number's powers [Roberts 2018].
+const vec3 kEven = vec3(0.8191725134, 0.6710436067, 0.5497004779);
+
+// Place of a pixel among its 4 x 4 block: neighbours get far numbers.
+float patternOf(ivec2 at) {
+    ivec2 p = at & 3;
+    ivec2 q = ivec2(p.x ^ p.y, p.y);
+    return float(((q.x & 1) << 3) | ((q.y & 1) << 2) | (q.x & 2) | ((q.y & 2) >> 1));
+}
+
+// Whether slot j has all light at this place; t: its texels, from its middle.
+bool slotHolds(int j, vec2 t, float depth) {
+    vec2 away = abs(t);
+    return max(away.x, away.y) < shaftBlock.rims[j].x - shaftBlock.rims[j].y * depth;
+}
+
+// Sunlight at a place of light space, as a multiple of level water's. The texel and slice are chosen by chance in
+// proportion to what interpolation would give each: steps and neighbours average it.
+float sunlightAt(vec2 s, float depth, vec3 random) {
+    float half_ = 0.5 * shaftBlock.grid.x;
+    vec2 a = shaftTexelOf(s, 0) - half_, b = shaftTexelOf(s, 1) - half_, c = shaftTexelOf(s, 2) - half_;
+    bool inA = slotHolds(0, a, depth), inB = slotHolds(1, b, depth), inC = slotHolds(2, c, depth);
+    vec2 at = inA ? a : inB ? b : c;
+    int slot = inA ? 0 : inB ? 1 : 2;
+    int k = int(min(shaftSlice(depth) + random.z, shaftBlock.grid.y - 1.0));
+    ivec2 texel = ivec2(clamp(at + (half_ + 0.5) + random.xy, vec2(0.0), vec2(shaftBlock.grid.x + 1.0)));
+    uint sum = texelFetch(shaftSlices, ivec3(texel, slot * int(shaftBlock.grid.y) + k), 0).x;
+    return inA || inB || inC ? float(sum) * shaftBlock.units.y : 1.0;
+}
+
+void main() {
+    ivec2 low = ivec2(gl_GlobalInvocationID.xy), size = imageSize(sourceImage);
+    if (any(greaterThanEqual(low, size))) return;
+    ivec2 last = textureSize(shaftViewDepth, 0) - 1;
+    WaterPath path = shaftPathOf(min(ivec2((vec2(low) + 0.5) * shaftBlock.march.y), last));
+
+    vec3 decay = beamDecay(path.direction);
+    vec3 apart = mix(decay, vec3(2e-3), lessThan(abs(decay), vec3(2e-3)));   // weights are differences
+    float least = min(apart.x, min(apart.y, apart.z));
+    float reach = min(path.lengthM, least > 0.0 ? kFarthest / least : 1e30);
+
+    // Along the path light space, depth and distance all change evenly.
+    vec2 slide = waterBlock.sunRefracted.xz / -waterBlock.sunRefracted.y;
+    float depth0 = waterBlock.shape.x - path.start.y;
+    vec2 s0 = path.start.xz - slide * depth0, sPerM = path.direction.xz + slide * path.direction.y;
+
+    int steps = path.lengthM > 0.0 && waterBlock.toSun.w > 0.0 ? int(shaftBlock.march.x) : 0;
+    float pattern = patternOf(low);
+    float stepM = reach / (float(steps) * float((1 << kStretches) - 1));
+    float jitter = fract((pattern + 0.5) / 16.0 + shaftBlock.march.z), t = stepM * jitter;
+    vec3 pass = exp(-apart * stepM), left = vec3(1.0), sum = vec3(0.0);
+    vec3 random = fract(0.5 + (pattern + shaftBlock.march.w) * kEven);
+    for (int stretch = 0; stretch < kStretches; ++stretch) {
+        vec3 taken = vec3(1.0) - pass;
+        for (int i = 0; i < steps; ++i) {
+            float light = sunlightAt(s0 + sPerM * t, depth0 - path.direction.y * t, random);
+            sum += (left * taken) * light;
+            left *= pass;
+            t += stepM;
+            random = fract(random + 16.0 * kEven);
+        }
+        t += stepM * jitter;   // the next stretch's jitter is twice this one's
+        pass *= pass;
+        stepM *= 2.0;
+    }
+    vec3 ratio = steps > 0 ? sum / (vec3(1.0) - left) : vec3(0.0);
+
+    vec3 even = decayOver(decay, path.lengthM);
+    vec3 source = levelWaterBeam(depth0, path.direction) * min(ratio, vec3(1000.0)) +
+                  veilingLight(depth0, path.direction, path.lengthM) / max(even, vec3(1e-6));
+    imageStore(sourceImage, low, vec4(source, path.lengthM));
+}

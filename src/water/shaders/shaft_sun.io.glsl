@@ -1,0 +1,56 @@
+// What level water scatters to the eye along a straight path, in closed form: the sun's beam, and the smooth light that
+// comes from all of the water above (veiling light). FOURNIER_FORAND: the phase function is theirs.
+// Sources: note on underwater light in docs/references.md: [Mobley 1994] for diffuse attenuation and mean cosines.
+#ifndef SHOAL_WATER_SHAFT_SUN_IO_GLSL
+#define SHOAL_WATER_SHAFT_SUN_IO_GLSL
+
+#include "water/optics.lib.glsl"
+#include "water/water.shared.h"
+
+const float kInverse4Pi = 0.0795774715;
+const float kMeanCosine = 0.8;      // of smooth light: its fluence is irradiance on a level plane over this
+const float kSkyThrough = 0.934;    // of an even sky's light, into water
+
+// Integral of exp(-k t) from 0 to s.
+float decayOver(float k, float s) {
+    float x = k * s;
+    return abs(x) < 1e-3 ? s * (1.0 - 0.5 * x) : (1.0 - exp(-x)) / k;
+}
+vec3 decayOver(vec3 k, float s) { return vec3(decayOver(k.x, s), decayOver(k.y, s), decayOver(k.z, s)); }
+
+// How fast the beam's scattered light falls along a path in `direction`, away from the eye: dimmed on its way down to
+// the path and back along it, 1/m.
+vec3 beamDecay(vec3 direction) {
+    return waterBlock.beamAttenuation.rgb * (1.0 + direction.y / waterBlock.sunRefracted.y);
+}
+
+// W/(m3 sr) that the sun's beam scatters along a path at its start; depth: of that below the level.
+vec3 levelWaterBeam(float depth, vec3 direction) {
+    float cosMean = -waterBlock.sunRefracted.y;
+    vec3 beam = waterBlock.sunIrradiance.rgb * (waterBlock.toSun.y * waterBlock.sunRefracted.w / cosMean);
+    vec3 arriving = beam * exp(-waterBlock.beamAttenuation.rgb * (depth / cosMean));
+#ifdef FOURNIER_FORAND
+    float phase = waterPhase(-dot(waterBlock.sunRefracted.xyz, direction), waterBlock.phase);
+#else
+    float phase = phaseHenyeyGreenstein(-dot(waterBlock.sunRefracted.xyz, direction), waterBlock.phase.y);
+#endif
+    return waterBlock.beamScattering.rgb * arriving * phase;
+}
+
+// W/(m2 sr) of light without direction: the sky's, and what the beam has lost but the water still carries down.
+vec3 veilingLight(float depth, vec3 direction, float lengthM) {
+    if (lengthM <= 0.0) return vec3(0.0);
+    vec3 beam = waterBlock.beamAttenuation.rgb, kd = waterBlock.diffuseAttenuation.rgb;
+    vec3 kdSun = waterBlock.sunDiffuseAttenuation.rgb;
+    vec3 sky = waterBlock.skyIrradiance.rgb * kSkyThrough * exp(-kd * depth) *
+               decayOver(beam - kd * direction.y, lengthM);
+    float cosMean = -waterBlock.sunRefracted.y;
+    vec3 level = waterBlock.sunIrradiance.rgb * (waterBlock.toSun.y * waterBlock.sunRefracted.w);
+    vec3 all = exp(-kdSun * depth) * decayOver(beam - kdSun * direction.y, lengthM);
+    vec3 sharp = exp(-beam * (depth / cosMean)) * decayOver(beamDecay(direction), lengthM);
+    // Where diffuse attenuation is the stronger one there is no such light at any depth.
+    vec3 smoothed = mix(max(all - sharp, vec3(0.0)), vec3(0.0), greaterThanEqual(kdSun, beam / cosMean));
+    return waterBlock.beamScattering.rgb * (sky + level * smoothed) * (kInverse4Pi / kMeanCosine);
+}
+
+#endif

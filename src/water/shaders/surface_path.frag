@@ -1,0 +1,118 @@
+#version 450 core
+// Each pixel's way through the water (WaterPaths::path). A ray that enters through the surface is bent, and followed on
+// the screen to where the opaque surfaces' depth meets it. Drawn with fullscreen.vert.
+// Variant CROSSING: surface_side.glsl.
+#include "frame/view.shared.h"
+#include "water/paths.io.glsl"
+#include "water/surface_side.glsl"
+
+layout(binding = SHOAL_UNIT_PASS + 0) uniform sampler2D opaqueDepth;   // R32F view depth
+
+layout(location = 0) out vec4 outPath;
+
+const int kSearchSteps = 8;
+const float kFirstGuess = 100.0;    // metres at most that the search begins at
+const float kBlindGuess = 2.0;      // and where nothing lies so near behind the pixel
+const float kLeastDepth = 0.02;     // metres that things may stand above the surface's point and count as wet
+const float kLargestBend = 0.02;    // of the inverse depth, over which neighbouring texels are not one plane
+const float kHitTolerance = 0.05;   // of the path's length: how far off the opaque surface a bent ray may end
+
+// View depth of the opaque surfaces between texels: its inverse is even over a plane on the screen; where the four
+// texels lie on no plane, that of the nearest.
+float opaqueDepthAt(vec2 pixel) {
+    vec2 corner = floor(pixel - 0.5), f = pixel - 0.5 - corner;
+    vec4 z = textureGather(opaqueDepth, (corner + 1.0) * size.zw, 0);   // (0, 1), (1, 1), (1, 0), (0, 0)
+    vec4 inverse = mix(vec4(1.0 / kFarthestWater), 1.0 / z, greaterThan(z, vec4(0.0)));
+    vec2 row = mix(inverse.wx, inverse.zy, f.x);
+    float nearest = f.y < 0.5 ? (f.x < 0.5 ? inverse.w : inverse.z) : (f.x < 0.5 ? inverse.x : inverse.y);
+    float bend = abs(inverse.x + inverse.z - inverse.y - inverse.w);
+    return 1.0 / (bend < kLargestBend * nearest ? mix(row.x, row.y, f.y) : nearest);
+}
+
+// Mirrored at the picture's borders: what lies beyond them is not known, and looks like what lies before.
+vec2 insidePicture(vec2 pixel) {
+    vec2 last = max(size.xy - 1.0, vec2(1.0));
+    vec2 turned = mod(abs(pixel - 0.5), 2.0 * last);
+    return min(turned, 2.0 * last - turned) + 0.5;
+}
+
+// What a bent ray meets: pixel (xy) and metres from the start (z). straight: where the unbent ray would end.
+vec3 followBent(vec3 start, vec3 direction, vec2 ownPixel, vec3 straight, bool ask) {
+    vec4 clip0 = clipFromWorld * vec4(start, 1.0), clip1 = clipFromWorld * vec4(direction, 0.0);
+    float depth0 = -(viewFromWorld * vec4(start, 1.0)).z, depth1 = -(viewFromWorld * vec4(direction, 0.0)).z;
+    // Bracketed secant [false position, Illinois] on g(t) = depth of the opaque surface less depth of the ray; first
+    // where the opaque surface would be if it was level.
+    float straightM = min(distance(straight, start), kFarthestWater);
+    float drop = start.y - straight.y, t = clamp(drop / max(-direction.y, 0.1), 0.1 * straightM, 2.0 * straightM);
+    t = drop > 0.0 && t < kFirstGuess ? t : kBlindGuess;
+    float low = 0.0, gLow = straightM, high = -1.0, gHigh = 0.0;
+    vec3 best = vec3(ownPixel, straightM);
+    float bestMiss = 1e30;
+    int rounds = ask ? kSearchSteps : 0;
+    for (int i = 0; i < rounds; ++i) {
+        vec4 clip = clip0 + clip1 * t;
+        vec2 pixel = (clip.xy / max(clip.w, 1e-4) * 0.5 + 0.5) * size.xy;
+        vec2 inside = clamp(pixel, vec2(0.5), size.xy - 0.5);
+        float opaque = opaqueDepthAt(inside);
+        PixelRay ray = rayOfPixel(inside);
+        vec3 hit = ray.origin + ray.step * opaque;
+        if (inside != pixel) {
+            // Nothing is known there: as if what is seen at the border went on level.
+            t = clamp((start.y - hit.y) / max(-direction.y, 0.1), 0.0, kFarthestWater);
+            clip = clip0 + clip1 * t;
+            best = vec3((clip.xy / max(clip.w, 1e-4) * 0.5 + 0.5) * size.xy, t);
+            bestMiss = 0.0;
+            break;
+        }
+        float miss = distance(hit, start + direction * t), g = opaque - (depth0 + depth1 * t);
+        // What is nearer than the surface or above it is not in the water.
+        bool behind = dot(hit - start, direction) > 0.0 && hit.y < start.y + kLeastDepth;
+        bool better = behind && miss < bestMiss;
+        best = better ? vec3(pixel, distance(hit, start)) : best;
+        bestMiss = better ? miss : bestMiss;
+        if (miss < 1e-3 * t) break;
+        if (g > 0.0) {
+            gHigh *= high > 0.0 && low > 0.0 ? 0.5 : 1.0;
+            low = t, gLow = g;
+            // Until it is beyond: on to the distance of what was seen.
+            t = high > 0.0 ? low + (high - low) * gLow / (gLow - gHigh) : max(distance(hit, start), 1.05 * t);
+        } else {
+            gLow *= high > 0.0 ? 0.5 : 1.0;
+            high = t, gHigh = g;
+            t = low + (high - low) * gLow / (gLow - gHigh);
+        }
+        t = clamp(t, 0.0, kFarthestWater);
+    }
+    // Found nowhere: as if not bent; behind a crest that hides things in the air, as if deep.
+    float unbentM = straight.y > start.y + kLeastDepth ? kFirstGuess : straightM;
+    return bestMiss <= kHitTolerance * best.z + 0.01 ? best : vec3(ownPixel, unbentM);
+}
+
+void main() {
+    ivec2 at = ivec2(gl_FragCoord.xy);
+    float surface = texelFetch(waterSurfaceDepth, at, 0).x, opaque = texelFetch(opaqueDepth, at, 0).x;
+    PixelRay ray = rayOfPixel(gl_FragCoord.xy);
+    float stepM = length(ray.step);
+    vec3 direction = ray.step / stepM;
+    float opaqueM = opaque > 0.0 ? opaque * stepM : kFarthestWater;
+    bool drawn = waterBlock.shape.z > 0.0;
+
+    // In through the surface.
+    vec3 start = ray.origin + ray.step * surface;
+    vec3 bent = refractedDirection(direction, decodeNormal(texelFetch(waterSurfaceNormal, at, 0).xy), waterBlock.shape.y);
+    bool enters = surface > 0.0;
+    vec3 met = followBent(start, bent, gl_FragCoord.xy, ray.origin + direction * opaqueM, enters);
+    vec2 offset = (insidePicture(met.xy) - gl_FragCoord.xy) * size.zw;
+
+    // Not bent: from the eye, or in through a side of the area.
+    vec3 nearPoint = ray.origin + ray.step * depthRange.x;
+    bool aroundArea = !inArea(nearPoint.xz);
+    bool fromEye = drawn && !aroundArea && (surface < 0.0 || underWater(nearPoint));
+    vec2 span = waterSpan(ray.origin, direction, fromEye || surface < 0.0 ? 1e9 : waterBlock.shape.x);
+    float begin = fromEye ? 0.0 : span.x;
+    float end = min(min(opaqueM, span.y), surface < 0.0 ? -surface * stepM : 1e30);
+    bool wet = fromEye || !drawn || aroundArea;
+    float straightWaterM = wet ? clamp(end - begin, 0.0, kFarthestWater) : 0.0;
+
+    outPath = enters ? vec4(offset, met.z, 0.0) : vec4(0.0, 0.0, straightWaterM, fromEye ? 1.0 : 0.0);
+}
