@@ -221,7 +221,7 @@ frame::Lights Pipeline::State::lights() const {
 }
 
 WaterScene Pipeline::State::waterScene(const frame::Context& context) {
-    return {*loaded->geometry, lighting, *loaded->shadows, loaded->lightingParams, lights()};
+    return {*loaded->geometry, lighting, shadowsOf(context), loaded->lightingParams, lights()};
 }
 
 bool Pipeline::State::wantsTerms() const {

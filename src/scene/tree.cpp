@@ -229,13 +229,20 @@ Result<void> applyOverride(Tree& root, const Override& change) {
 
 Result<void> applyOverrides(Tree& root, std::span<const Override> changes) {
     for (const Override& change : changes) SHOAL_TRY(applyOverride(root, change));
-    const bool placed = std::any_of(changes.begin(), changes.end(),
-                                    [](const Override& change) { return change.key == "camera.position"; });
-    Tree* camera = root.find("camera");
-    if (!placed || !camera) return {};
-    std::erase_if(camera->members, [](const TreeMember& member) {
-        return member.name == "orbit" || member.name == "path" || member.name == "poses" || member.name == "model";
-    });
+    // Two ways to say the same thing: the one that was set counts.
+    const auto replaces = [&](const char* key, const char* table, const std::vector<std::string>& others) {
+        Tree* tree = root.find(table);
+        const auto isSet = [&](const std::string& wanted) {
+            return std::any_of(changes.begin(), changes.end(), [&](const Override& c) { return c.key == wanted; });
+        };
+        if (!tree || !isSet(key)) return;
+        std::erase_if(tree->members, [&](const TreeMember& member) {
+            return std::find(others.begin(), others.end(), member.name) != others.end() &&
+                   !isSet(std::string(table) + "." + member.name);
+        });
+    };
+    replaces("camera.position", "camera", {"orbit", "path", "poses", "model"});
+    replaces("sun.toSun", "sun", {"elevationDeg", "azimuthDeg"});
     return {};
 }
 

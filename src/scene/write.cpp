@@ -174,7 +174,8 @@ bool editOne(std::string& text, const std::string& key, const Tree& wanted) {
 
 std::optional<std::string> editedText(std::string text, const std::vector<Override>& changes, const Tree& wanted,
                                       const std::filesystem::path& file) {
-    for (const char* other : {"camera.orbit", "camera.path", "camera.poses", "camera.model"}) {
+    for (const char* other : {"camera.orbit", "camera.path", "camera.poses", "camera.model", "sun.elevationDeg",
+                              "sun.azimuthDeg"}) {
         if (findPath(wanted, other)) continue;
         const Statements statements = Statements::of(text);
         if (const Statement* statement = statements.find(other))

@@ -1,5 +1,7 @@
 #include "view/fields.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include <shoal/frame/lighting.h>
@@ -34,9 +36,11 @@ void addWater(std::vector<FieldGroup>& groups, const scene::Scene& scene) {
     if (!scene.table("water")) return;
     addTable<water::BodyParams, water::OpticsParams>(groups, scene, "Water", "water");
     addTable<water::WaveParams>(groups, scene, "Water: waves", "water.waves", true);
-    addTable<water::PhotonParams, water::LightViewParams>(groups, scene, "Water: caustics", "water.caustics", true);
+    addTable<water::PhotonParams, water::LightViewParams, water::LightViewSetup>(groups, scene, "Water: caustics",
+                                                                                 "water.caustics", true);
     addTable<water::ShaftParams>(groups, scene, "Water: shafts", "water.shafts", true);
     addTable<water::SurfaceParams>(groups, scene, "Water: surface", "water.surface", true);
+    addTable<water::PaperParams>(groups, scene, "Water: the paper's method", "water.paper");
 }
 
 // A shape's settings are known by their defaults in words.
@@ -60,6 +64,24 @@ void addShapeSettings(FieldGroup& group, const scene::ShapeEntry& shape) {
         info.defaultValue = row.value;
         group.fields.push_back(std::move(info));
     }
+}
+
+// toSun as a person thinks of it; Viewer::setValue turns them back into toSun.
+void addSunAngles(FieldGroup& group, Vec3 toSun) {
+    const Vec3 d = normalize(toSun);
+    const auto angle = [&](const char* name, double value, double low, double high, const char* sentence) {
+        FieldInfo info;
+        info.key = std::string("sun.") + name, info.name = name, info.unit = "deg", info.sentence = sentence;
+        info.lowest = low, info.highest = high;
+        info.numbers = {value};
+        info.value = info.defaultValue = valueText(info);
+        return info;
+    };
+    const double elevation = std::asin(std::clamp(double(d.y), -1.0, 1.0)) * 180 / kPiD;
+    const double azimuth = std::atan2(double(d.x), double(d.z)) * 180 / kPiD;
+    group.fields.insert(group.fields.begin(),
+                        {angle("elevationDeg", elevation, -90, 90, "height above the horizon"),
+                         angle("azimuthDeg", azimuth, -180, 180, "from +z towards +x, seen from above")});
 }
 
 std::string named(const char* what, std::size_t index, const std::string& name) {
@@ -95,7 +117,10 @@ std::vector<FieldGroup> groupsOf(const scene::Scene& scene) {
         addFields(group.fields, table, params);
         groups.push_back(std::move(group));
     };
-    if (!scene.sunOff) add("Sun", "sun", scene.sun);
+    if (!scene.sunOff) {
+        add("Sun", "sun", scene.sun);
+        addSunAngles(groups.back(), scene.sun.toSun);
+    }
     add("Environment", "environment", scene.environment);
     addTable<frame::LightingParams>(groups, scene, "Lighting", "lighting", true);
     addTable<frame::ShadowParams>(groups, scene, "Shadows", "shadows", true);

@@ -68,7 +68,7 @@ float drawMenu(Viewer& v) {
     menu("Buffers", drawBufferMenu);
     if (ImGui::MenuItem("Help", "F1")) v.press(290, 0);  // GLFW_KEY_F1
     const std::string status = v.statusLine();
-    const float width = ImGui::CalcTextSize(status.c_str()).x + ImGui::GetStyle().WindowPadding.x;
+    const float width = ImGui::CalcTextSize(status.c_str()).x + 2 * ImGui::GetStyle().WindowPadding.x;
     ImGui::SameLine(std::max(ImGui::GetCursorPosX() + 20, ImGui::GetWindowWidth() - width));
     ImGui::TextDisabled("%s", status.c_str());
     const float height = ImGui::GetWindowHeight();

@@ -31,6 +31,7 @@ public:
         ImGuiIO& io = ImGui::GetIO();
         io.IniFilename = nullptr;
         io.LogFilename = nullptr;
+        io.MousePos = {-1e6f, -1e6f};  // nowhere, until it moves
         io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
         io.ClipboardUserData = window;
         io.SetClipboardTextFn = [](void* w, const char* text) { glfwSetClipboardString(static_cast<GLFWwindow*>(w), text); };

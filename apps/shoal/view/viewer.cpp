@@ -216,6 +216,17 @@ void Viewer::setValue(const std::string& key, const std::string& value) {
         touch();
         return;
     }
+    if (key == "sun.elevationDeg" || key == "sun.azimuthDeg") {
+        const Vec3 d = normalize(shownDocument().scene().sun.toSun);
+        const auto parsed = parseFieldValue(value);
+        if (!parsed || parsed->kind != FieldValue::Kind::number) return fail(key + ": expected a number");
+        const float given = radians(float(parsed->numbers[0]));
+        const float elevation = key == "sun.elevationDeg" ? given : std::asin(std::clamp(d.y, -1.0f, 1.0f));
+        const float azimuth = key == "sun.azimuthDeg" ? given : std::atan2(d.x, d.z);
+        return setValue("sun.toSun", shoal::detail::showField(Vec3{std::cos(elevation) * std::sin(azimuth),
+                                                                   std::sin(elevation),
+                                                                   std::cos(elevation) * std::cos(azimuth)}));
+    }
     const auto set = shownDocument().set(key, value);
     if (!set) return fail(set.error().message);
     error_.clear();
@@ -226,7 +237,8 @@ void Viewer::setValue(const std::string& key, const std::string& value) {
 
 void Viewer::resetValue(const std::string& key) {
     if (key.rfind("camera.", 0) == 0) return goToSceneCamera();
-    shownDocument().reset(key);
+    const bool sunAngle = key == "sun.elevationDeg" || key == "sun.azimuthDeg";
+    shownDocument().reset(sunAngle ? "sun.toSun" : key);
     applied(effectOf(key));
 }
 

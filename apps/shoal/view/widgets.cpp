@@ -44,8 +44,9 @@ void showHelp(const FieldInfo& info) {
 }
 
 // Steps and format that suit a value: three figures.
-const char* formatFor(double value, double span) {
+std::string formatFor(double value, double span) {
     const double size = span < kUnbounded ? span : std::abs(value);
+    if (size < 1e-9) return "%.1f";
     return size >= 1000 ? "%.0f" : size >= 100 ? "%.1f" : size >= 5 ? "%.2f" : size >= 0.05 ? "%.3f" : "%.5f";
 }
 
@@ -59,16 +60,19 @@ bool editNumbers(FieldInfo& info) {
     for (int i = 0; i < info.components; ++i) values[i] = float(info.numbers[std::size_t(i)]);
     const float low = float(std::max(info.lowest, -1e30)), high = float(std::min(info.highest, 1e30));
     const bool slider = isSliderRange(info.lowest, info.highest);
-    const char* format = formatFor(info.numbers[0], slider ? info.highest - info.lowest : kUnbounded);
+    double most = 0;
+    for (const double number : info.numbers) most = std::max(most, std::abs(number));
+    std::string format = formatFor(most, slider && info.components == 1 ? info.highest - info.lowest : kUnbounded);
+    if (info.components == 1 && !info.unit.empty()) format += " " + info.unit;
     bool changed = false;
     if (info.components == 1 && slider) {
-        changed = ImGui::SliderFloat("##value", values, low, high, format, ImGuiSliderFlags_NoRoundToFormat);
+        changed = ImGui::SliderFloat("##value", values, low, high, format.c_str(), ImGuiSliderFlags_NoRoundToFormat);
         // A double click types, as everywhere; ImGui's own way (Ctrl and a click) stays.
         if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0)) ImGui::SetKeyboardFocusHere(-1);
     } else {
         const float size = std::max({std::abs(values[0]), std::abs(values[1]), std::abs(values[2]), 0.05f});
         changed = ImGui::DragScalarN("##value", ImGuiDataType_Float, values, info.components, 0.005f * size,
-                                     low > -1e29f ? &low : nullptr, high < 1e29f ? &high : nullptr, format,
+                                     low > -1e29f ? &low : nullptr, high < 1e29f ? &high : nullptr, format.c_str(),
                                      ImGuiSliderFlags_NoRoundToFormat);
     }
     if (!changed) return false;

@@ -284,7 +284,7 @@ struct Scene {
 };
 
 // A `--set key=value`: "camera.fovDeg=40", "model[0].clip=Run", "post.exposureEv=1". One of camera.position takes the
-// place of the file's orbit, path, poses or model camera.
+// place of the file's orbit, path, poses or model camera, one of sun.toSun of the sun's angles.
 struct Override {
     std::string key, value;
 };
