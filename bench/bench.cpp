@@ -20,9 +20,8 @@ namespace shoal::bench {
 const std::vector<Benchmark>& benchmarks() {
     static const std::vector<Benchmark> all = [] {
         std::vector<Benchmark> every;
-        for (const auto& some :
-             {frameBenchmarks(), waterTruthBenchmarks(), waterShaftBenchmarks(), waterSpeedBenchmarks(),
-              viewBenchmarks()})
+        for (const auto& some : {frameBenchmarks(), waterTruthBenchmarks(), waterShaftBenchmarks(),
+                                 waterSceneBenchmarks(), waterSpeedBenchmarks(), viewBenchmarks()})
             every.insert(every.end(), some.begin(), some.end());
         return every;
     }();

@@ -43,6 +43,7 @@ std::vector<Benchmark> waterSpeedBenchmarks();
 std::vector<Benchmark> waterErrorBenchmarks(), waterPaperBenchmarks();  // in waterSpeedBenchmarks
 std::vector<Benchmark> waterTruthBenchmarks();
 std::vector<Benchmark> waterShaftBenchmarks();
+std::vector<Benchmark> waterSceneBenchmarks();
 std::vector<Benchmark> viewBenchmarks();
 
 // In the processes that frame.startup_ms starts: times the start, prints it and ends the process; elsewhere does

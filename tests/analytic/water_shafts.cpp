@@ -116,5 +116,72 @@ TEST_F(WaterShafts, DistanceTurnsToTheWatersColour) {
     EXPECT_GT(found[2], 2 * found[0]) << "blue";
 }
 
+// A lamp in the water against a fine sum over each ray; a spot lights its cone alone.
+TEST_F(WaterShafts, LampsInTheWaterScatter) {
+    ShaftScene scene(device(), 96, 64, levelWater());
+    scene.sunShines = false;
+    scene.look({0, -5, 0}, {1, -5, 0}, 50);
+    scene.setDistances([](Vec3) { return 12.0; });
+    light::PunctualLight lamp;
+    lamp.position = {5, -4.5f, 0.6f}, lamp.intensity = {10, 10, 10}, lamp.range = 0;
+    lamp.direction = normalize(Vec3{0, -1, -1}), lamp.innerCone = 0.3f, lamp.outerCone = 0.4f;
+    for (const bool spot : {false, true}) {
+        lamp.kind = spot ? light::PunctualLight::Kind::spot : light::PunctualLight::Kind::point;
+        scene.lamps = {lamp};
+        const Image picture = scene.picture();
+        double squares = 0, brightest = 0;
+        for (int y = 0; y < picture.height; y += 3)
+            for (int x = 0; x < picture.width; x += 3) {
+                const Vec3 d = scene.rayOf(x, y);
+                constexpr int kSteps = 2000;
+                double sum = 0;
+                for (int i = 0; i < kSteps; ++i) {
+                    const float t = (float(i) + 0.5f) * 12 / kSteps;
+                    const Vec3 p = scene.context.view.eye + d * t, away = p - lamp.position;
+                    const double cosTheta = -double(dot(normalize(away), d));
+                    sum += double(light::irradianceAt(lamp, p).x) * std::exp(-0.13 * double(length(away) + t)) *
+                           water::analytic::henyeyGreenstein(0.924, cosTheta);
+                }
+                const double expected = 0.08 * sum * 12 / kSteps;
+                brightest = std::max(brightest, expected);
+                squares += (double(picture.at(x, y)[1]) - expected) * (double(picture.at(x, y)[1]) - expected);
+            }
+        const double rmse = std::sqrt(squares / (32 * 22));
+        EXPECT_GT(brightest, 0.003);
+        EXPECT_LT(rmse, 0.05 * brightest) << (spot ? "spot" : "point");
+    }
+}
+
+// A lamp high above level water: straight below, its light falls as from its apparent place, index times as high.
+TEST_F(WaterShafts, LampsAboveTheWaterScatter) {
+    ShaftScene scene(device(), 48, 32, levelWater());
+    scene.sunShines = false;
+    scene.look({0, -3, 0}, {1, -3, 0}, 30);
+    scene.setDistances([](Vec3) { return 10.0; });
+    light::PunctualLight lamp;
+    lamp.position = {5, 20, 0}, lamp.intensity = {400, 400, 400};
+    scene.lamps = {lamp};
+    scene.params.photons = 160000;
+    const Image picture = scene.picture();
+    const double index = 1.333, height = 20 * index;
+    for (const int y : {4, 16, 28})
+        for (const int x : {8, 24, 40}) {
+            const Vec3 d = scene.rayOf(x, y);
+            constexpr int kSteps = 2000;
+            double sum = 0;
+            for (int i = 0; i < kSteps; ++i) {
+                const double t = (i + 0.5) * 10 / kSteps, depth = 3 - double(d.y) * t;
+                const double aside = std::hypot(double(d.x) * t - 5, double(d.z) * t);
+                const Vec3 way = normalize(scene.context.view.eye + d * float(t) - Vec3{5, float(height), 0});
+                const double distance = std::hypot(height + depth, aside);
+                const double level = 400 * 0.979627 * index * index / (distance * distance);
+                sum += level * std::exp(-0.13 * (depth / -double(way.y) + t)) *
+                       water::analytic::henyeyGreenstein(0.924, -double(dot(way, d)));
+            }
+            const double expected = 0.08 * sum * 10 / kSteps;
+            EXPECT_NEAR(double(picture.at(x, y)[1]) / expected, 1, 0.03) << x << " " << y;
+        }
+}
+
 }  // namespace
 }  // namespace shoal::test

@@ -184,7 +184,7 @@ struct WavyShaftError {
 inline WavyShaftError wavyShaftError(gl::Device& device, float resolutionScale = 0.25f, int photons = 40000,
                                      double zenith = 0, bool print = false, const water::ShaftSetup& setup = {},
                                      Image* drawn = nullptr, Image* truth = nullptr) {
-    constexpr int kWidth = 320, kHeight = 180, kStride = 5, kSteps = 64;
+    constexpr int kWidth = 320, kHeight = 180, kStride = 6, kSteps = 160;
     ShaftScene scene(device, kWidth, kHeight, sinusoidS1(), setup);
     const Vec3 eye{0.1f, -3, 0};
     scene.look(eye, eye + Vec3{0.05f, -0.1f, -1}, 40);

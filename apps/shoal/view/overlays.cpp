@@ -93,11 +93,11 @@ void drawOverlays(Viewer& v) {
     const float bottom = float(a.y + a.height) - margin;
     if (v.noteSeconds_ > 0)
         strip("note", v.note_, float(a.x) + margin, bottom, 1, width, false);
+    else if (v.inspector.active())
+        strip("buffer", v.inspector.chosen() + ": " + v.inspector.rangeText(), float(a.x) + margin, bottom, 1, width, false);
     else if (!v.settings.hintRead && v.picture.hasScene())
         strip("hint", "Drag to look around, right drag to move, wheel to go nearer, F to see everything, F1 for all keys",
               float(a.x) + margin, bottom, 1, width, false);
-    else if (v.inspector.active())
-        strip("buffer", v.inspector.chosen() + ": " + v.inspector.rangeText(), float(a.x) + margin, bottom, 1, width, false);
     drawReadings(v);
 }
 

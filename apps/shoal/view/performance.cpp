@@ -27,6 +27,8 @@ void drawPlot(const std::deque<FrameCost>& costs, const std::vector<std::string>
     list->AddRectFilled(low, {low.x + size.x, low.y + size.y}, ImGui::GetColorU32(ImGuiCol_FrameBg));
     double most = 40;
     for (const FrameCost& cost : costs) most = std::max(most, cost.totalMs);
+    most = std::min(most, 200.0);  // full pictures of a CPU would press all else to the ground
+    list->PushClipRect(low, {low.x + size.x, low.y + size.y}, true);
     const float perMs = size.y / float(most * 1.05), barWidth = size.x / 120;
     float x = low.x + size.x - barWidth * float(costs.size());
     for (const FrameCost& cost : costs) {
@@ -45,6 +47,7 @@ void drawPlot(const std::deque<FrameCost>& costs, const std::vector<std::string>
     const float line = low.y + size.y - 33.3f * perMs;
     list->AddLine({low.x, line}, {low.x + size.x, line}, ImGui::GetColorU32(ImGuiCol_TextDisabled));
     list->AddText({low.x + 4, line - ImGui::GetFontSize() - 1}, ImGui::GetColorU32(ImGuiCol_TextDisabled), "33 ms");
+    list->PopClipRect();
 }
 
 }  // namespace

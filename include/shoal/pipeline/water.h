@@ -9,6 +9,7 @@
 #include <shoal/scene/content.h>
 #include <shoal/scene/scene.h>
 #include <shoal/water/paper.h>
+#include <shoal/water/reference.h>
 #include <shoal/water/water.h>
 
 namespace shoal::pipeline {
@@ -26,5 +27,8 @@ Result<std::optional<WaterSpec>> readWater(const scene::Scene& scene);
 
 // W/m2 that the content's environment puts on a level plane.
 Vec3 skyIrradiance(const scene::Content& content, float intensity);
+
+// Triangles of the visible opaque surfaces at `time` seconds, for water/reference.h. Masked materials are not cut out.
+water::ReferenceScene referenceScene(const scene::Content& content, float time);
 
 }  // namespace shoal::pipeline

@@ -46,10 +46,14 @@ public:
     Shafts& operator=(Shafts&&) noexcept;
     ~Shafts();
 
-    // Traces the photons into the slices; once a frame, after the views of `views` are drawn.
+    // Traces the photons into the slices; once a frame, after the views of `views` are drawn. context: of the eye that
+    // sees most of it (photons are weighed by how much of them turns to it). Slices are multiples of what level water
+    // lets through, without attenuation; outside of all slots and below the last slice that is taken to go on.
     void render(const frame::Context& context, const ShaftParams& params, const Body& body, const BodyLights& lights,
                 const LightViews& views);
-    // Marches every pixel's path and brings the result to full size.
+    // Marches every pixel's path and brings the result to full size. Lighting::prepare() of this view and bind() must
+    // have been called (its rays, the lamps in the water), and Shadows::bind() where such a spot casts shadows. `paths`
+    // may be empty: straight paths below the level. Radiance is that in the water, at the path's start.
     void march(const frame::Context& context, const ShaftParams& params, const Body& body, const BodyLights& lights,
                const LightViews& views, const WaterPaths& paths, gl::TextureView viewDepth,
                const ShaftOutputs& outputs);

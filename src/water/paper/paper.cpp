@@ -32,6 +32,8 @@ struct PaperBuffer {
     bool usable() const { return bool(toRaw) && bool(toFiltered); }
 };
 
+using Defines = std::vector<std::pair<std::string, std::string>>;
+
 }  // namespace
 
 struct PaperMethod::State {
@@ -40,8 +42,7 @@ struct PaperMethod::State {
     gl::VertexArray nothing;
     const gl::Program *mask = nullptr, *depth = nullptr, *filter = nullptr, *direct = nullptr, *inscatter = nullptr;
     const gl::Program *causticTracer = nullptr, *godrayTracer = nullptr;  // of this light and number of steps
-    int tracerSteps = 0;
-    bool tracerLamp = false;
+    Defines tracerDefines;
     gl::BlockBuffer<PaperBlock> block;
     PaperBlock values{};  // of the last render
     gl::Texture shadow, waterMask;
@@ -56,10 +57,10 @@ struct PaperMethod::State {
 
     Result<void> makePrograms();
     Result<void> makeLightTargets();
-    Result<void> makeTracers(int steps, bool lamp);
+    Result<void> makeTracers(const Body& body, int steps, bool lamp);
     Result<void> makeGrid(Grid& grid, int side, const char* label);
     Result<void> makeBuffer(PaperBuffer& buffer, IVec2 size, const char* label);
-    Result<void> makeSized(const frame::Context& context, const PaperParams& params);
+    Result<void> makeSized(const frame::Context& context, const PaperParams& params, const Body& body);
     void drawMask(const frame::Context& context);
     void shrinkDepth(const PaperBuffer& buffer, gl::TextureView depth) const;
     void addUp(const PaperBuffer& buffer, const Grid& grid, const gl::Program& tracer) const;
@@ -108,13 +109,14 @@ Result<void> State::makePrograms() {
     SHOAL_TRY_ASSIGN(filter, frame::fullscreenProgram(*device, "water/paper_filter.frag"));
     SHOAL_TRY_ASSIGN(direct, programs.get({{"water/paper_direct.comp"}, {}, "paper caustics to full size"}));
     SHOAL_TRY_ASSIGN(inscatter, programs.get({{"water/paper_inscatter.comp"}, {}, "paper god rays to full size"}));
-    return makeTracers(PaperParams{}.newtonSteps, false);
+    return makeTracers({}, PaperParams{}.newtonSteps, false);
 }
 
-Result<void> State::makeTracers(int steps, bool lamp) {
-    if (causticTracer && godrayTracer && steps == tracerSteps && lamp == tracerLamp) return {};
-    std::vector<std::pair<std::string, std::string>> defines = {{"NEWTON_STEPS", std::to_string(steps)}};
+Result<void> State::makeTracers(const Body& body, int steps, bool lamp) {
+    Defines defines = body.waves ? waveDefines(*body.waves) : Defines{};
+    defines.emplace_back("NEWTON_STEPS", std::to_string(steps));
     if (lamp) defines.emplace_back("PAPER_LAMP", "1");
+    if (causticTracer && godrayTracer && defines == tracerDefines) return {};
     gl::ProgramCache& programs = device->programs();
     SHOAL_TRY_ASSIGN(causticTracer,
                      programs.get({{"water/paper_grid.vert", "water/paper_caustics.geom", "water/paper_caustics.frag"},
@@ -124,7 +126,7 @@ Result<void> State::makeTracers(int steps, bool lamp) {
                      programs.get({{"water/paper_grid.vert", "water/paper_godrays.geom", "water/paper_godrays.frag"},
                                    defines,
                                    "paper god rays"}));
-    tracerSteps = steps, tracerLamp = lamp;
+    tracerDefines = std::move(defines);
     return {};
 }
 
@@ -168,13 +170,13 @@ Result<void> State::makeBuffer(PaperBuffer& buffer, IVec2 size, const char* labe
     return {};
 }
 
-Result<void> State::makeSized(const frame::Context& context, const PaperParams& params) {
+Result<void> State::makeSized(const frame::Context& context, const PaperParams& params, const Body& body) {
     const PaperBufferSizes sizes = paperBufferSizes(context.view, params);
     SHOAL_TRY(makeBuffer(caustics, sizes.caustics, "paper caustics"));
     SHOAL_TRY(makeBuffer(godrays, sizes.godrays, "paper god rays"));
     SHOAL_TRY(makeGrid(causticGrid, params.causticGrid, "paper caustic photons"));
     SHOAL_TRY(makeGrid(godrayGrid, params.godrayGrid, "paper god ray photons"));
-    return makeTracers(params.newtonSteps, light.lamp);
+    return makeTracers(body, params.newtonSteps, light.lamp);
 }
 
 // Where the light sees water: the level surface, tested against what stands above it.
@@ -279,7 +281,7 @@ std::span<frame::NeededView> PaperMethod::neededViews() { return state_->views; 
 void PaperMethod::render(const frame::Context& context, const PaperParams& params, const Body& body, const BodyLights&,
                          const ReceiverInputs&, gl::TextureView depth) {
     State& s = *state_;
-    if (const auto made = s.makeSized(context, params); !made) {
+    if (const auto made = s.makeSized(context, params, body); !made) {
         s.device->log(LogLevel::error, "paper method: " + made.error().message);
         return;
     }

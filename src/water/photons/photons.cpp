@@ -27,7 +27,9 @@ struct Photons::State {
     PhotonSetup setup;
     const gl::Program* deposit[kVariants] = {};
     const gl::Program *resolve = nullptr, *disc = nullptr, *mips = nullptr, *layers = nullptr;
-    const gl::Program *lookup = nullptr, *lookupDeep = nullptr, *lookupNoNormals = nullptr;
+    // Looking up: all pixels, then listed tiles; the sun alone or lamps too; without normals, with.
+    const gl::Program* lookup[2][2][2] = {};
+    gl::Buffer tiles;
     gl::Buffer deposits;  // of one slot at a time
     gl::Buffer commands;  // work groups of the passes after the deposit, for one layer or two
     gl::Texture sharp;    // its two layers before the light's disc blurs them
@@ -49,8 +51,9 @@ constexpr int kSharpLevels = 6;
 constexpr std::size_t kMostPasses = 2 + kSharpLevels + kMostMipLevels;  // of one slot after the deposit
 constexpr int kLargestFineMap = 1024;  // texels a side of maps that may be deposited twice as fine
 // Radius of the light's disc at the slot's bottom, texels: smaller ones are not seen, and up to the second one the map
-// that they blur must be twice as fine (convolving 512^2 bins by .9 texels leaves 12 % error, 1024^2 bins 2 %).
-constexpr double kSeenDisc = 0.5, kWideDisc = 2;
+// that they blur must be twice as fine (convolving 512^2 bins by .9 texels leaves 11 % error,
+// 1024^2 bins 2 %) where one map is all there is; where maps follow each other their steps are larger than that.
+constexpr double kSeenDisc = 0.6, kWideDisc = 2;
 constexpr double kReflectedShare = 0.25;
 
 Result<void> makePrograms(gl::Device& device, State& s) {
@@ -71,18 +74,26 @@ Result<void> makePrograms(gl::Device& device, State& s) {
     const auto lookup = [&](std::vector<std::pair<std::string, std::string>> defines) {
         return device.programs().get({{"water/caustic_lookup.comp"}, std::move(defines), "caustic lookup"});
     };
-    SHOAL_TRY_ASSIGN(s.lookup, lookup({}));
-    SHOAL_TRY_ASSIGN(s.lookupDeep, lookup({{"NO_WATERLINE", ""}, {"NO_LAMPS", ""}}));
-    SHOAL_TRY_ASSIGN(s.lookupNoNormals, lookup({{"NO_NORMALS", ""}}));
+    for (int i = 0; i < 8; ++i) {
+        std::vector<std::pair<std::string, std::string>> defines;
+        if (i & 4) defines.push_back({"TILES", ""});
+        if (!(i & 2)) defines.push_back({"NO_LAMPS", ""});
+        if (!(i & 1)) defines.push_back({"NO_NORMALS", ""});
+        SHOAL_TRY_ASSIGN(s.lookup[i >> 2][i >> 1 & 1][i & 1], lookup(defines));
+    }
     return {};
 }
 
-// Photons of a slot: a light's photons are shared by its cascades; what the surface reflects is fainter.
+int cascadesOf(const LightSlot& slot, std::span<const LightSlot> slots) {
+    return int(std::count_if(slots.begin(), slots.end(), [&](const LightSlot& other) {
+        return other.light == slot.light && other.reflected == slot.reflected;
+    }));
+}
+
+// A light's photons are shared by its cascades; what the surface reflects is fainter.
 int photonsOf(const LightSlot& slot, std::span<const LightSlot> slots, int photons) {
-    int sharing = 0;
-    for (const LightSlot& other : slots)
-        if (other.light == slot.light && other.reflected == slot.reflected) ++sharing;
-    return std::max(int(double(photons) * (slot.reflected ? kReflectedShare : 1) / std::max(sharing, 1)), 64);
+    const double share = (slot.reflected ? kReflectedShare : 1) / cascadesOf(slot, slots);
+    return std::max(int(double(photons) * share), 64);
 }
 
 State::Variant variantOf(const LightSlot& slot, const Body& body, const BodyLights& lights, bool air) {
@@ -290,7 +301,8 @@ void Photons::render(const frame::Context& context, const PhotonParams& params, 
         const LightSlot& slot = slots[std::size_t(i)];
         s.sunHasSlot = s.sunHasSlot || (slot.light < 0 && !slot.reflected);
         const double disc = double(slot.discRadius) / double(slot.texel);
-        const int fine = disc >= kSeenDisc && disc < kWideDisc ? s.mostFine : 1;
+        const bool alone = cascadesOf(slot, slots) == 1;
+        const int fine = alone && disc >= kSeenDisc && disc < kWideDisc ? s.mostFine : 1;
         depositSlot(s, context, i, slot, photonsOf(slot, slots, params.photons), variantOf(slot, body, lights, air),
                     slope, fine);
         resolveSlot(s, context, i, disc, fine);
@@ -319,10 +331,24 @@ void Photons::resolve(const frame::Context& context, const Body& body, const Bod
     gl::bindImage(1, outputs.ambient ? outputs.ambient : outputs.direct, GL_WRITE_ONLY);
     const bool lamps =
         std::any_of(views.slots().begin(), views.slots().end(), [](const LightSlot& slot) { return slot.light >= 0; });
-    const bool deep = !views.airDrawn() && !lamps;
-    const gl::Program& program = *(!normals ? s.lookupNoNormals : deep ? s.lookupDeep : s.lookup);
-    program.set(0, outputs.ambient ? 1 : 0);
-    program.dispatch(context.view.width, context.view.height);
+    const gl::Program &all = *s.lookup[0][lamps][normals], &listed = *s.lookup[1][lamps][normals];
+    const int tilesX = (context.view.width + all.localSize(0) - 1) / all.localSize(0);
+    const int tilesY = (context.view.height + all.localSize(1) - 1) / all.localSize(1);
+    const std::size_t bytes = (4 + std::size_t(tilesX) * std::size_t(tilesY)) * sizeof(std::uint32_t);
+    if (s.tiles.bytes() < bytes) s.tiles = gl::Buffer::create(*s.device, bytes, "caustic tiles");
+    const std::uint32_t none[4] = {0, 1, 1, 0};
+    s.tiles.write(0, std::as_bytes(std::span(none)));
+    s.tiles.bindStorage(SHOAL_STORAGE_WATER);
+    all.set(0, outputs.ambient ? 1 : 0);
+    all.dispatch(context.view.width, context.view.height);
+    if (views.airDrawn()) {
+        glMemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+        listed.set(0, outputs.ambient ? 1 : 0);
+        listed.use();
+        glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, s.tiles.name());
+        glDispatchComputeIndirect(0);
+        glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
+    }
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT);
 }
 

@@ -149,6 +149,12 @@ std::vector<Square> sunSquares(const light::View& eye, const Side& side, const B
         if (!squares.empty() && squares.back().side >= side2) squares.pop_back();
         squares.push_back(square);
     }
+    // A map between two that are four times apart or less costs more than it shows.
+    for (std::size_t k = 1; k + 1 < squares.size();)
+        if (squares[k + 1].side <= 4 * squares[k - 1].side)
+            squares.erase(squares.begin() + std::ptrdiff_t(k));
+        else
+            ++k;
     // No step wider than four, so that sharpness fades.
     for (std::size_t k = squares.size() - 1; k-- > 0;)
         squares[k].side = std::max(squares[k].side, squares[k + 1].side / 4);

@@ -12,6 +12,7 @@ layout(location = 0) uniform ivec4 place;   // texels a side of the map; sharp t
 
 const float kFewTexels = 1.5;   // radius from which the next coarser level is taken when it doubles
 const float kMostTexels = 6.0;  // radius at the coarsest level: a stretched disc is cut off there
+const float kLeastTexels = 0.5; // so that every line of a texel meets it
 
 void main() {
     ivec3 id = ivec3(gl_GlobalInvocationID);
@@ -24,7 +25,7 @@ void main() {
 
     int level = clamp(int(floor(log2(max(across, 1e-3) / kFewTexels))), 0, place.w - 1);
     float shrink = exp2(-float(level));
-    across = max(across * shrink, 0.05);
+    across = max(across * shrink, kLeastTexels);
     float along = min(across * disc.z, kMostTexels);
     // The ellipse is qx x^2 + 2 qxy x y + qy y^2 <= 1: in the row at y it runs from shift y - half to shift y + half,
     // half^2 = flat - steep y^2.

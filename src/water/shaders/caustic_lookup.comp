@@ -1,9 +1,10 @@
 #version 450 core
 // Light on each pixel's surface that came through the water's surface or was thrown up by it, from the caustic maps;
 // and the smooth light of sky and scattered sun under water. Variants: NO_NORMALS, normals are taken from the depth;
-// NO_WATERLINE, all surfaces are deeper than any wave; NO_LAMPS, the sun alone.
-// llvmpipe runs every branch and every loop at least once: hence few loops, which most pixels leave after one turn.
-// Sources: [Mobley 1994] Light and Water, for downwelling irradiance falling as exp(-Kd D).
+// NO_LAMPS, the sun alone;
+// TILES, only the tiles listed before, exactly; without it all pixels as if no wave were high and the surface threw no
+// light up, and tiles where that does not hold are listed.
+// llvmpipe runs every branch and every loop at least once: hence two passes, and straight lines in the first.
 #include "water/caustic.shared.h"
 #include "frame/gbuffer.lib.glsl"
 #include "water/light_space.io.glsl"
@@ -11,6 +12,10 @@
 #include "water/waves.io.glsl"
 
 layout(local_size_x = 16, local_size_y = 8) in;
+
+#ifndef TILES
+shared uint shallow;   // 1: the tile has surfaces that waves may leave dry, or that the surface throws light at
+#endif
 
 layout(binding = 0) uniform sampler2D viewDepthTexture;
 #ifndef NO_NORMALS
@@ -20,9 +25,12 @@ layout(binding = SHOAL_UNIT_CAUSTIC_MAPS) uniform sampler2DArray causticMaps;
 layout(binding = 0, rgba16f) uniform writeonly image2D directImage;
 layout(binding = 1, rgba16f) uniform writeonly image2D ambientImage;
 layout(location = 0) uniform bool ambientWanted;
+// Groups of a dispatch over the listed tiles, then the tiles: x, y in 16 bits each.
+layout(std430, binding = SHOAL_STORAGE_WATER) buffer Tiles { uint tileGroups[4]; uint tiles[]; };
 
 const float kSkyTransmittance = 0.934;   // of light from all of the sky through level water
 const float kFromBelow = 0.05;           // of downwelling light comes back from below
+const int kMostCascades = 4;              // slots of one group
 const float kRimTexels = 8.0;            // over which a slot's map turns into the next one
 const float kGapM = 0.03;                // a surface and its own depth map differ by no more, apart from its slope
 
@@ -76,21 +84,30 @@ float mapValue(vec2 s, float height, float slope, float pixelM, int group, int s
     int mip = int(min(log2(max(1.2 * pixelM * place.w, 1.0)), causticBlock.maps.x - 1.0));
     vec2 at = s * (place.w * exp2(-float(mip))) - 0.5, low = floor(at), f = at - low;
     ivec2 corner = ivec2(low) - (ivec2(floor(place.xy * place.w + 0.5)) >> mip);
-    float sum = 0.0;
-    int behind = 0;   // bits of taps where the surface lies behind the first layer
-    // Four taps of the first layer, four more of the second where they are needed.
-    for (int i = 0; i < 4 || (i < 8 && behind != 0); ++i) {
-        ivec2 bit = ivec2(i & 1, (i >> 1) & 1);
-        int layer = 2 * slot + (i >> 2);
-        vec2 w = mix(1.0 - f, f, vec2(bit));
-        ivec2 coarse = clamp(corner + bit, ivec2(0), ivec2((size >> mip) - 1));
-        ivec2 texel = (coarse << mip) + ((1 << mip) >> 1);
-        float depth = texelFetch(litDepth, ivec3(texel.x, int(rows.x) * texel.y + int(rows.y), layer), 0).x;
-        bool hidden = depth > 0.0 && side * (height - heightOfDepth(depth, heights)) > tolerance;
-        bool counts = i < 4 || (behind & (1 << (i & 3))) != 0;
-        if (i < 4 && hidden) behind |= 1 << i;
-        float value = texelFetch(causticMaps, ivec3(coarse, layer), mip).x;
-        sum += counts && !hidden ? w.x * w.y * value : 0.0;
+    vec4 w = vec4((1.0 - f.x) * (1.0 - f.y), f.x * (1.0 - f.y), (1.0 - f.x) * f.y, f.x * f.y);
+    ivec2 a = clamp(corner, ivec2(0), ivec2((size >> mip) - 1)), b = clamp(corner + 1, ivec2(0), ivec2((size >> mip) - 1));
+    ivec2 ta = (a << mip) + ((1 << mip) >> 1), tb = (b << mip) + ((1 << mip) >> 1);
+    ta.y = int(rows.x) * ta.y + int(rows.y), tb.y = int(rows.x) * tb.y + int(rows.y);
+    int layer = 2 * slot;
+    vec4 depth = vec4(texelFetch(litDepth, ivec3(ta, layer), 0).x, texelFetch(litDepth, ivec3(tb.x, ta.y, layer), 0).x,
+                      texelFetch(litDepth, ivec3(ta.x, tb.y, layer), 0).x, texelFetch(litDepth, ivec3(tb, layer), 0).x);
+    vec4 value = vec4(texelFetch(causticMaps, ivec3(a, layer), mip).x,
+                      texelFetch(causticMaps, ivec3(b.x, a.y, layer), mip).x,
+                      texelFetch(causticMaps, ivec3(a.x, b.y, layer), mip).x,
+                      texelFetch(causticMaps, ivec3(b, layer), mip).x);
+    // Heights as heightOfDepth gives them; in front of nothing is in front.
+    vec4 lit = (heights.x * depth + heights.y) / (heights.z * depth + heights.w);
+    bvec4 hidden = greaterThan(side * (vec4(height) - lit) * sign(depth), vec4(tolerance));
+    float sum = dot(w, mix(value, vec4(0.0), hidden));
+    // What the first layer hides may lie in the second.
+    w = mix(vec4(0.0), w, hidden);
+    for (int i = 0; i < 4 && (w.x > 0.0 || w.y > 0.0 || w.z > 0.0 || w.w > 0.0); ++i) {
+        ivec2 at2 = ivec2((i & 1) == 0 ? ta.x : tb.x, i < 2 ? ta.y : tb.y);
+        ivec2 map2 = ivec2((i & 1) == 0 ? a.x : b.x, i < 2 ? a.y : b.y);
+        float second = texelFetch(litDepth, ivec3(at2, layer + 1), 0).x;
+        bool behind = second > 0.0 && side * (height - heightOfDepth(second, heights)) > tolerance;
+        sum += behind ? 0.0 : w[i] * texelFetch(causticMaps, ivec3(map2, layer + 1), mip).x;
+        if (i == 3) w = vec4(0.0);
     }
     return sum;
 }
@@ -106,21 +123,36 @@ bool isUnderWater(vec3 p) {
     vec4 area = waterBlock.area;
     bool inArea = all(greaterThanEqual(p.xz, area.xy)) && all(lessThanEqual(p.xz, area.zw));
     float surface = 0.0;
-#ifndef NO_WATERLINE
+#ifdef TILES
     if (abs(p.y - waterBlock.shape.x) <= waterBlock.shape.w) surface = waveSlopeAt(p.xz).x;
 #endif
     return inArea && p.y - waterBlock.shape.x < surface;
 }
 
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(pixel, ivec2(causticBlock.size.xy)))) return;
-    float viewDepth = texelFetch(viewDepthTexture, pixel, 0).x;
+#ifdef TILES
+    uint tile = tiles[gl_WorkGroupID.x];
+    ivec2 corner = ivec2(tile & 0xffffu, tile >> 16);
+#else
+    ivec2 corner = ivec2(gl_WorkGroupID.xy);
+#endif
+    ivec2 pixel = corner * ivec2(gl_WorkGroupSize.xy) + ivec2(gl_LocalInvocationID.xy);
+    bool inside = all(lessThan(pixel, ivec2(causticBlock.size.xy)));
+    float viewDepth = inside ? texelFetch(viewDepthTexture, pixel, 0).x : 0.0;
     bool there = viewDepth > 0.0;
     vec3 p = positionAt(vec2(pixel) + 0.5, max(viewDepth, 1e-3));
     vec3 normal = normalAt(pixel, p, viewDepth);
     bool under = there && isUnderWater(p);
     float pixelM = causticBlock.size.z * viewDepth + causticBlock.size.w;
+#ifndef TILES
+    // One thread asks for its tile.
+    if (gl_LocalInvocationIndex == 0u) shallow = 0u;
+    barrier();
+    if (there && p.y > waterBlock.shape.x - waterBlock.shape.w) shallow = 1u;
+    barrier();
+    if (gl_LocalInvocationIndex == 0u && shallow != 0u)
+        tiles[atomicAdd(tileGroups[0], 1u)] = uint(corner.x) | uint(corner.y) << 16;
+#endif
 
     // The sun's beam through level water: what all channels lose, and what each loses beyond that.
     float depth = max(waterBlock.shape.x - p.y, 0.0), metres = -depth / waterBlock.sunRefracted.y;
@@ -131,9 +163,16 @@ void main() {
 
     vec3 direct = vec3(0.0);
     float sunLeft = causticBlock.maps.y == 0.0 ? 1.0 : 0.0;   // share of the sun that no map covers
-    int count = int(lightSpace.counts.x);
-    for (int group = 0; group < count;) {
+#if defined(NO_LAMPS) && !defined(TILES)
+    // The sun's slots come first.
+    if (causticBlock.maps.y != 0.0) {
+        const int group = 0;
         int end = int(lightSpace.slots[group].rows.z);
+#else
+    int count = int(lightSpace.counts.x);
+    for (int group = 0, end = 0; group < count; group = end) {
+        end = int(lightSpace.slots[group].rows.z);
+#endif
         bool reflected = lightSpace.slots[group].flags.y > 0.5;
         vec3 toLight = towardsLight(p, group);
         float facing = dot(normal, toLight), tilt = length(normal.xz) / max(facing, 0.05);
@@ -146,9 +185,13 @@ void main() {
             int slot = -1;
             float share = 0.0;
             vec4 place = lightSpace.slots[group].place;
-            for (int i = group; i < end; ++i) {
-                float inside = min(insideSlot(s, lightSpace.slots[i].place, i + 1 < end), left);
-                if (slot < 0 && i >= from && inside > 0.0) slot = i, share = inside, place = lightSpace.slots[i].place;
+            for (int i = 0; i < kMostCascades; ++i) {
+                int other = min(group + i, end - 1);
+                float part = min(insideSlot(s, lightSpace.slots[other].place, other + 1 < end), left);
+                bool taken = slot < 0 && other >= from && part > 0.0;
+                slot = taken ? other : slot;
+                share = taken ? part : share;
+                place = taken ? lightSpace.slots[other].place : place;
             }
             if (slot < 0) break;
             value += share * mapValue(s, p.y, tilt, pixelM, group, slot, place);
@@ -167,10 +210,10 @@ void main() {
 #endif
         direct += lightSpace.slots[group].irradiance.rgb * through * (value * max(facing, 0.0));
         if (lightSpace.slots[group].flags.x < 0.0 && !reflected) sunLeft = left;
-        group = end;
     }
     float sunFacing = max(dot(normal, waterBlock.sunRefracted.xyz) / waterBlock.sunRefracted.y, 0.0);
     if (under) direct += onLevel * beam * (sunLeft * sunFacing);
+    if (!inside) return;
     imageStore(directImage, pixel, vec4(direct, under ? 1.0 : 0.0));
 
     // Smooth light from above: the sky's, and the sun's that left the sharp beam.

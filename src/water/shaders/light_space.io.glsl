@@ -45,9 +45,12 @@ float airVisibility(vec3 p, int slot) {
     if (lightSpace.slots[slot].flags.w == 0.0) return 1.0;
     const float kGapM = 0.01;  // what is this little above the surface is the waterline itself
     int size = int(lightSpace.counts.y);
-    ivec2 texel = clamp(ivec2(floor(airTexelOf(p, slot))), ivec2(0), ivec2(size - 1));
+    // The four texels around: light must not slip in between a hull's side and the texels that show the hull.
+    ivec2 low = clamp(ivec2(floor(airTexelOf(p, slot) - 0.5)), ivec2(0), ivec2(size - 2));
     // Seen from above, whichever way light goes on: rows run against z.
-    float depth = texelFetch(airDepth, ivec3(texel.x, size - 1 - texel.y, slot), 0).x;
+    ivec3 at = ivec3(low.x, size - 2 - low.y, slot);
+    float depth = max(max(texelFetch(airDepth, at, 0).x, texelFetch(airDepth, at + ivec3(1, 0, 0), 0).x),
+                      max(texelFetch(airDepth, at + ivec3(0, 1, 0), 0).x, texelFetch(airDepth, at + ivec3(1, 1, 0), 0).x));
     if (depth <= 0.0) return 1.0;
     return heightOfDepth(depth, lightSpace.slots[slot].airHeight) > p.y + kGapM ? 0.0 : 1.0;
 }

@@ -16,12 +16,13 @@ using vec4 = Vec4;
 #endif
 
 SHOAL_SHAFT_BLOCK_BEGIN {
-    vec4 grid;    // x: texels a side of a slice, without the border; y: slices of a slot; z: photons a texel's side
+    vec4 grid;    // x: texels a side of a slice, without the border; y: slices of a slot; z: photons a texel's side;
+                  // w: lamps above the water
     vec4 depths;  // slice k lies x (p(y k) - 1) m below the level, p(i): the float with the bits of 1, plus i (2 to the
                   // power of i / 2^23, straight lines between whole powers); z: 1 / y, w: depth of the last
     vec4 units;   // x: fixed-point units of the light that level water puts on a texel, y: 1 / x
     vec4 eye;     // xyz: where the eye seems to be from under water
-    // The sun's, finest first, then the lamps'.
+    // The sun's (up to SHOAL_SUN_SHAFT_SLOTS), finest first; from there on lamps'.
     vec4 slots[SHOAL_MAX_SHAFT_SLOTS];  // xy: light space of the corner of texel (0, 0), z: 1 / texel, w: index among
                                         // LightViews::slots()
     vec4 rims[SHOAL_MAX_SHAFT_SLOTS];  // x: texels from the middle that all its light reaches, less y a metre of depth;

@@ -1,13 +1,17 @@
 #version 450 core
 // The light of the slices gathered along each path, at reduced size. What is kept is a mean source: radiance over what
 // an even source of 1 would give on that path. It changes little where paths end at different distances, so that the
-// full picture gets its edges from its own paths.
+// full picture gets its edges from its own paths. Variants: PATHS, FOURNIER_FORAND, LAMPS (there are some),
+// LAMP_SHADOWS (of some in the water).
 #include "water/shaft_slices.io.glsl"
 #include "water/shaft_sun.io.glsl"
 #include "water/shaft_path.io.glsl"
+#ifdef LAMPS
+#include "water/shaft_lamps.io.glsl"
+#endif
 
 layout(local_size_x = 8, local_size_y = 8) in;
-// rgb: mean source, W/(m3 sr); a: metres of path, 0: none
+// rgb: mean source, W/(m3 sr); a: seen length of the path, 0: there is none
 layout(binding = 0, rgba32f) uniform writeonly image2D sourceImage;
 
 const float kFarthest = 7.0;   // optical depths of the clearest channel that are marched: e^-7 is a thousandth
@@ -81,7 +85,11 @@ void main() {
     vec3 ratio = steps > 0 ? sum / (vec3(1.0) - left) : vec3(0.0);
 
     vec3 even = decayOver(decay, path.lengthM);
-    vec3 source = levelWaterBeam(depth0, path.direction) * min(ratio, vec3(1000.0)) +
-                  veilingLight(depth0, path.direction, path.lengthM) / max(even, vec3(1e-6));
-    imageStore(sourceImage, low, vec4(source, path.lengthM));
+    vec3 diffuse = veilingLight(depth0, path.direction, path.lengthM);
+#ifdef LAMPS
+    diffuse += lampsInWater(path.start, path.direction, path.lengthM, jitter);
+    diffuse += lampsAbove(path.start, path.direction, path.lengthM, vec3(jitter, random.yz));
+#endif
+    vec3 source = levelWaterBeam(depth0, path.direction) * min(ratio, vec3(1000.0)) + diffuse / max(even, vec3(1e-6));
+    imageStore(sourceImage, low, vec4(source, seenLength(path.lengthM)));
 }

@@ -1,16 +1,19 @@
 #version 450 core
 // A photon for each texel (or part of one) of a slot's square, followed down through the slices until it meets something.
 // Its place, footprint and direction are exact at every depth (photon.io.glsl), so one tracing serves all slices.
+// Variants: those of photon.io.glsl (NO_LAMPS: slots of the sun), FOURNIER_FORAND.
 // Sources: [Igehy 1999]; [Hockney & Eastwood 1988] cloud in cell, for spreading a photon over four texels.
 #define SHAFT_SLICES_WRITTEN
 #include "water/shaft_slices.io.glsl"
 #include "water/photon.io.glsl"
+#include "water/shaft_sun.io.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(location = 0) uniform int firstSlot;
+layout(location = 0) uniform int i;      // slot of the block
+layout(location = 1) uniform int slot;   // the same among LightViews::slots()
 
-const int kMostParts = 3;   // of a photon's footprint along an axis
+const float kMostParts = 2.0;   // of a photon's footprint along an axis
 // Times what level water lets through: no photon counts for more. All photons of a slot in one texel fill 32 bits.
 const float kMostLight = 16.0;
 
@@ -30,29 +33,19 @@ void deposit(int layer, vec2 t, float amount, float rounding) {
     imageAtomicAdd(shaftSlices, place + ivec3(1, 1, 0), upperRight);
 }
 
-float phase(float cosTheta) {
-#ifdef FOURNIER_FORAND
-    return waterPhase(cosTheta, waterBlock.phase);
-#else
-    return phaseHenyeyGreenstein(cosTheta, waterBlock.phase.y);
-#endif
-}
-
 // How much more (or less) of a photon's light turns to the eye than of light on the mean way: the march takes the mean
 // one's phase.
 float phaseRatio(vec3 position, vec3 direction, vec3 meanDirection) {
     vec3 toEye = shaftBlock.eye.xyz - position;
     toEye *= inversesqrt(max(dot(toEye, toEye), 1e-6));
-    float ratio = phase(dot(direction, toEye)) / max(phase(dot(meanDirection, toEye)), 1e-12);
+    float ratio = shaftPhase(dot(direction, toEye)) / max(shaftPhase(dot(meanDirection, toEye)), 1e-12);
     return clamp(ratio, 0.2, 5.0);
 }
 
 void main() {
     int perTexel = int(shaftBlock.grid.z), side = int(shaftBlock.grid.x) * perTexel;
     ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
-    int i = firstSlot + int(gl_GlobalInvocationID.z);
     if (any(greaterThanEqual(cell, ivec2(side)))) return;
-    int slot = int(shaftBlock.slots[i].w);
     float fraction = 1.0 / float(perTexel);
     vec2 xz = shaftBlock.slots[i].xy + (vec2(cell) + 0.5) * (fraction / shaftBlock.slots[i].z);
 
@@ -63,8 +56,11 @@ void main() {
     // What is met at the very surface has no water before it.
     float deepest = hit < 0.0 ? 1e30 : level - p.start.y + hit;
     vec3 mean = waterBlock.sunRefracted.xyz;
-    float cosMean = -mean.y;
-    float levelFluence = waterBlock.toSun.y * waterBlock.sunRefracted.w / cosMean;
+#ifdef NO_LAMPS
+    float levelFluence = waterBlock.toSun.y * waterBlock.sunRefracted.w / -mean.y;
+#else
+    float levelFluence = 1.0;
+#endif
     float amount = p.flux * p.perTravel / max(levelFluence, 1e-6);
     vec3 direction = vec3(p.drift.x, -1.0, p.drift.y) / p.perTravel;
     float units = shaftBlock.units.x * fraction * fraction;
@@ -79,19 +75,27 @@ void main() {
         above = depth;
         float travel = p.start.y - level + depth;
         vec2 t = shaftTexelOf(photonPlace(p, slot, travel), i);
+        vec2 xzThere = p.start.xz + p.drift * travel;
+        vec3 there = vec3(xzThere.x, level - depth, xzThere.y);
+#ifndef NO_LAMPS
+        mean = normalize(there - lightSpace.slots[slot].source.xyz);
+#endif
         // What its way differs from the mean one by dims it; the march does the rest.
-        float more = waterBlock.beamAttenuation.w * (travel * p.perTravel - depth / cosMean);
-        vec2 place = p.start.xz + p.drift * travel;
-        float share = amount * exp(-more) * phaseRatio(vec3(place.x, level - depth, place.y), direction, mean);
+        float more = waterBlock.beamAttenuation.w * (travel * p.perTravel + depth / mean.y);
+        float share = amount * exp(-more) * phaseRatio(there, direction, mean);
         share = min(share, kMostLight) * units;
 
-        vec4 j = photonJacobian(p, slot, travel) * fraction;
-        ivec2 parts = clamp(ivec2(ceil(vec2(length(j.xy), length(j.zw)) - 0.35)), ivec2(1), ivec2(kMostParts));
-        int count = parts.x * parts.y;
+        // Parts lie a texel and a third apart, where that takes few: what is spread wider is dim and shows few gaps.
+        vec4 j = photonJacobian(p, slot, travel) * fraction, extent = abs(j);
+        vec2 parts = clamp(ceil(max(extent.xz, extent.yw) - 0.35), vec2(1.0), vec2(kMostParts));
+        vec2 apart = 1.0 / parts;
+        float count = parts.x * parts.y;
+        share *= apart.x * apart.y;
         int target = i * int(shaftBlock.grid.y) + k;
-        for (int n = 0; n < count; ++n) {
-            vec2 part = (vec2(n % parts.x, n / parts.x) + 0.5) / vec2(parts) - 0.5;
-            deposit(target, t + j.xy * part.x + j.zw * part.y, share / float(count), rounding);
+        for (float n = 0.5; n < count; n += 1.0) {
+            float row = floor(n * apart.x);
+            vec2 part = vec2(n - row * parts.x, row + 0.5) * apart - 0.5;
+            deposit(target, t + j.xy * part.x + j.zw * part.y, share, rounding);
         }
     }
 }

@@ -18,6 +18,18 @@ float decayOver(float k, float s) {
 }
 vec3 decayOver(vec3 k, float s) { return vec3(decayOver(k.x, s), decayOver(k.y, s), decayOver(k.z, s)); }
 
+// What paths are compared by: metres, less and less of them the farther away they are and the dimmer.
+float seenLength(float lengthM) { return decayOver(waterBlock.beamAttenuation.w, lengthM); }
+
+// 1/sr.
+float shaftPhase(float cosTheta) {
+#ifdef FOURNIER_FORAND
+    return waterPhase(cosTheta, waterBlock.phase);
+#else
+    return phaseHenyeyGreenstein(cosTheta, waterBlock.phase.y);
+#endif
+}
+
 // How fast the beam's scattered light falls along a path in `direction`, away from the eye: dimmed on its way down to
 // the path and back along it, 1/m.
 vec3 beamDecay(vec3 direction) {
@@ -29,12 +41,7 @@ vec3 levelWaterBeam(float depth, vec3 direction) {
     float cosMean = -waterBlock.sunRefracted.y;
     vec3 beam = waterBlock.sunIrradiance.rgb * (waterBlock.toSun.y * waterBlock.sunRefracted.w / cosMean);
     vec3 arriving = beam * exp(-waterBlock.beamAttenuation.rgb * (depth / cosMean));
-#ifdef FOURNIER_FORAND
-    float phase = waterPhase(-dot(waterBlock.sunRefracted.xyz, direction), waterBlock.phase);
-#else
-    float phase = phaseHenyeyGreenstein(-dot(waterBlock.sunRefracted.xyz, direction), waterBlock.phase.y);
-#endif
-    return waterBlock.beamScattering.rgb * arriving * phase;
+    return waterBlock.beamScattering.rgb * arriving * shaftPhase(-dot(waterBlock.sunRefracted.xyz, direction));
 }
 
 // W/(m2 sr) of light without direction: the sky's, and what the beam has lost but the water still carries down.

@@ -24,7 +24,8 @@ void main() {
     vec4 a = texelFetch(sources, low, 0), b = texelFetch(sources, ivec2(high.x, low.y), 0);
     vec4 c = texelFetch(sources, ivec2(low.x, high.y), 0), d = texelFetch(sources, high, 0);
     vec4 lengths = vec4(a.a, b.a, c.a, d.a);
-    vec4 away = (lengths - path.lengthM) / (kTolerance * path.lengthM + 1e-3);
+    float seen = seenLength(path.lengthM);
+    vec4 away = (lengths - seen) / (kTolerance * seen + 1e-3);
     vec4 alike = max(vec4(1.0) - away * away, vec4(kLeastWeight));
     // Beyond the outermost small pixels the line through them goes on, where they show one thing.
     vec2 f = place - vec2(low), inside = clamp(f, vec2(0.0), vec2(1.0));
@@ -33,5 +34,5 @@ void main() {
     vec4 weight = (vec4(g.x, f.x, g.x, f.x) * vec4(g.y, g.y, f.y, f.y) + 1e-3) * alike;
     weight *= mix(vec4(1e-6), vec4(1.0), greaterThan(lengths, vec4(0.0)));
     vec3 source = mat4x3(a.rgb, b.rgb, c.rgb, d.rgb) * weight / dot(weight, vec4(1.0));
-    imageStore(inscatterImage, at, vec4(source * decayOver(beamDecay(path.direction), path.lengthM), 1.0));
+    imageStore(inscatterImage, at, vec4(max(source, vec3(0.0)) * decayOver(beamDecay(path.direction), path.lengthM), 1.0));
 }

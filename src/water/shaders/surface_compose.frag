@@ -3,7 +3,8 @@
 // scattered in. Drawn with fullscreen.vert.
 // L(air) = R L(mirrored) + T / n2 L(bent); L(water) = n2 T L(air, bent) + R L(mirrored); both
 // sides of the surface see the air along one ray, which is looked up in the sky and in the picture of what stands above
-// the water. Seen radiance is dimmed as the sharp beam is, by a + b (1 - f): light scattered nearly forward stays in it.
+// the water. Seen radiance is dimmed as the sharp beam is, by a + b (1 - f): light scattered nearly forward stays in
+// it.
 #include "frame/lighting.io.glsl"
 #include "water/paths.io.glsl"
 #include "water/surface.lib.glsl"
@@ -39,7 +40,7 @@ vec3 skyRadiance(vec3 d, float spread) {
     return textureLod(sharpEnvironment, latLong, level).rgb * lightBlock.environment.x;
 }
 
-// What a picture from a mirrored eye shows along a ray: radiance, and in a how much of the ray meets something; m: where.
+// What a picture from a mirrored eye shows along a ray: radiance, and in a how much of the ray meets something.
 struct Mirrored {
     vec4 radiance;
     float lengthM;
@@ -149,7 +150,8 @@ float sunLobe(vec3 direction, vec3 normal, float variance, bool enters) {
         lobe = cosFacet > 0.0 && dot(toSun, normal) > 0.0 ? lobe : 0.0;
     } else {
         vec3 facet = normalize(index * direction - toSun);   // upwards
-        float cosFacet = -dot(facet, normal), cosIn = max(dot(facet, toSun), 0.0), cosOut = max(dot(facet, direction), 0.0);
+        float cosFacet = -dot(facet, normal);
+        float cosIn = max(dot(facet, toSun), 0.0), cosOut = max(dot(facet, direction), 0.0);
         float together = index * cosOut - cosIn;
         lobe = cosIn * cosOut * index * index * fresnelTransmittance(cosIn, index) * slopeDensity(cosFacet, widened) /
                (seen * max(together * together, 1e-6));

@@ -31,8 +31,8 @@ void main() {
     // Seen from above, the normal is turned to the eye as far as needed; from below, away from it.
     vec3 normal = normalize(vec3(-wave.slope.x, 1.0, -wave.slope.y));
     vec3 toEye = eye.w > 0.5 ? worldFromView[2].xyz : normalize(eye.xyz - vPosition);
-    // Which side is seen follows from where the ray begins: triangles seen edge on turn over as they are rasterised. Only
-    // an eye beside the area may see either.
+    // Which side is seen follows from where the ray begins: triangles seen edge on turn over as they are rasterised.
+    // Only an eye beside the area may see either.
     vec4 near = viewFromClip * vec4(2.0 * gl_FragCoord.xy * size.zw - 1.0, 1.0, 1.0);
     vec3 begin = (worldFromView * vec4(near.xyz / near.w, 1.0)).xyz;
     bool beside = !inArea(begin.xz) && begin.y < waterBlock.shape.x + waterBlock.shape.w;

@@ -99,7 +99,8 @@ void main() {
 
     // In through the surface.
     vec3 start = ray.origin + ray.step * surface;
-    vec3 bent = refractedDirection(direction, decodeNormal(texelFetch(waterSurfaceNormal, at, 0).xy), waterBlock.shape.y);
+    vec3 normal = decodeNormal(texelFetch(waterSurfaceNormal, at, 0).xy);
+    vec3 bent = refractedDirection(direction, normal, waterBlock.shape.y);
     bool enters = surface > 0.0;
     vec3 met = followBent(start, bent, gl_FragCoord.xy, ray.origin + direction * opaqueM, enters);
     vec2 offset = (insidePicture(met.xy) - gl_FragCoord.xy) * size.zw;

@@ -1,5 +1,6 @@
 #version 450 core
-// What the AOVs "transmittance" and "waterDepth" show. Drawn with fullscreen.vert; textures as for surface_compose.frag.
+// What the AOVs "transmittance" and "waterDepth" show. Drawn with fullscreen.vert; textures as for
+// surface_compose.frag.
 #include "water/paths.io.glsl"
 #include "water/surface.lib.glsl"
 #include "water/surface.shared.h"

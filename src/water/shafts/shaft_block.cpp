@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <vector>
 
 namespace shoal::water {
 namespace {
@@ -40,19 +41,23 @@ ShaftPlan makeShaftPlan(const ShaftSetup& setup, const ShaftParams& params, cons
     const float level = body.params.level;
     ShaftPlan plan;
     ShaftBlock& block = plan.block;
-    int count = 0;
+    std::vector<std::size_t> sun, lamps;
     float deepest = kLeastDeepest;
-    for (const LightSlot& slot : slots) {
-        if (slot.light != -1 || slot.reflected || count == SHOAL_SUN_SHAFT_SLOTS) continue;
-        ++count;
-        deepest = std::max(deepest, level - slot.bottom);
+    for (std::size_t i = 0; i < slots.size(); ++i) {
+        if (slots[i].reflected) continue;
+        std::vector<std::size_t>& to = slots[i].light < 0 ? sun : lamps;
+        const std::size_t most =
+            slots[i].light < 0 ? SHOAL_SUN_SHAFT_SLOTS : SHOAL_MAX_SHAFT_SLOTS - SHOAL_SUN_SHAFT_SLOTS;
+        if (to.size() == most) continue;
+        to.push_back(i);
+        deepest = std::max(deepest, level - slots[i].bottom);
     }
     const Vec3 beam = body.optics.beamAttenuation();
     const float clearest = std::min({beam.x, beam.y, beam.z});
     if (clearest > 0) deepest = std::min(deepest, std::max(kOpticalDepth / clearest, 1.0f));
 
-    const Lattice lattice = latticeOf(params.photons, count, setup.resolution);
-    block.grid = {float(lattice.side), float(setup.slices), float(lattice.perTexel), 0};
+    const Lattice lattice = latticeOf(params.photons, int(sun.size() + lamps.size()), setup.resolution);
+    block.grid = {float(lattice.side), float(setup.slices), float(lattice.perTexel), float(lamps.size())};
     const std::uint32_t octaves = std::bit_cast<std::uint32_t>(1 + deepest / kFirstScale) - 0x3f800000u;
     const float rate = float(octaves) / float(setup.slices - 1);
     block.depths = {kFirstScale, rate, 1 / rate, deepest};
@@ -65,18 +70,18 @@ ShaftPlan makeShaftPlan(const ShaftSetup& setup, const ShaftParams& params, cons
     block.eye = {eye.x, eye.y, eye.z, 0};
 
     for (Vec4& rim : block.rims) rim = {-1, 0, 0, 0};
-    int used = 0;
-    for (std::size_t i = 0; i < slots.size(); ++i) {
+    const auto place = [&](std::size_t i, std::size_t at) {
         const LightSlot& slot = slots[i];
-        if (slot.light != -1 || slot.reflected || used == count) continue;
         const double width = double(slot.texel) * setup.viewResolution, texel = width / lattice.side;
-        block.slots[used] = {float(std::round(slot.origin.x / texel) * texel),
-                             float(std::round(slot.origin.y / texel) * texel), float(1 / texel), float(i)};
+        block.slots[at] = {float(std::round(slot.origin.x / texel) * texel),
+                           float(std::round(slot.origin.y / texel) * texel), float(1 / texel), float(i)};
         const float rim = std::min(slot.margin / float(texel), kWidestRim * float(lattice.side));
-        block.rims[used] = {0.5f * float(lattice.side) - 1, rim / std::max(level - slot.bottom, 1.0f), 0, 0};
-        ++used;
-    }
-    plan.side = lattice.side, plan.cells = lattice.side * lattice.perTexel, plan.sunSlots = count;
+        block.rims[at] = {0.5f * float(lattice.side) - 1, rim / std::max(level - slot.bottom, 1.0f), 0, 0};
+    };
+    for (std::size_t i = 0; i < sun.size(); ++i) place(sun[i], i);
+    for (std::size_t i = 0; i < lamps.size(); ++i) place(lamps[i], SHOAL_SUN_SHAFT_SLOTS + i);
+    plan.side = lattice.side, plan.cells = lattice.side * lattice.perTexel, plan.sunSlots = int(sun.size()),
+    plan.lampSlots = int(lamps.size());
     return plan;
 }
 

@@ -14,6 +14,7 @@ struct ShaftPlan {
     int side = 0;      // texels of a slice, without the border
     int cells = 0;     // photons a slot's side
     int sunSlots = 0;  // 0: no light of the sun reaches into the water
+    int lampSlots = 0;
 };
 ShaftPlan makeShaftPlan(const ShaftSetup& setup, const ShaftParams& params, const Body& body,
                         std::span<const LightSlot> slots, const frame::Context& context);

@@ -28,10 +28,22 @@ void bindInput(int unit, const gl::TextureView& texture) {
     glBindSampler(GLuint(unit), 0);
 }
 
+// What photons are traced from.
+enum PhotonKind { kOpenSun, kShadedSun, kLamp };
+
 // Whether crests can shade the waves behind them: the sun stands lower than the steepest slope.
 bool shadedAbove(const Body& body, const light::Sun& sun) {
     const Vec3 toSun = normalize(sun.toSun);
     return toSun.y <= float(body.waves ? body.waves->bounds().slope : 0) * std::hypot(toSun.x, toSun.z);
+}
+
+// 0: there are none, 1: some, 2: some in the water that cast shadows.
+int lampsOf(const Body& body, const BodyLights& lights) {
+    int found = lights.punctual.empty() ? 0 : 1;
+    for (const light::PunctualLight& lamp : lights.punctual)
+        if (lamp.position.y < body.params.level && lamp.kind == light::PunctualLight::Kind::spot && lamp.castsShadow)
+            found = 2;
+    return found;
 }
 
 // A small pixel's middle falls on the corner of four full pixels where it is an even number of them wide: the upper
@@ -48,10 +60,11 @@ struct Shafts::State {
 
     gl::Device& device;
     ShaftSetup setup;
-    const gl::Program* photons[2][2] = {};  // [Fournier-Forand][waves may shade each other, or things above the water]
-    const gl::Program* march[2][2] = {};    // [Fournier-Forand][paths given]
-    const gl::Program* upsample[2] = {};    // [paths given]
-    const gl::Program* blur[2] = {};        // [axis]
+    // [Fournier-Forand][the sun; the sun where waves or things above the water may shade it; a lamp]
+    const gl::Program* photons[2][3] = {};
+    const gl::Program* march[2][2][3] = {};  // [Fournier-Forand][paths given][lamps: none, some, some with shadows]
+    const gl::Program* upsample[2] = {};     // [paths given]
+    const gl::Program* blur[2] = {};         // [axis]
     gl::BlockBuffer<ShaftBlock> block;
     gl::BlockBuffer<WaterBlock> water;
     gl::Texture slices;            // R32UI array, see shaft_slices.io.glsl
@@ -59,29 +72,55 @@ struct Shafts::State {
     ShaftPlan plan;
     std::int64_t photonCount = 0;
 
+    bool failed = false;  // a program did not build; `problem` says why
+    std::string problem;
+
+    const gl::Program* get(const gl::Program*& kept, const char* name, const Defines& defines);
+    const gl::Program* photonProgram(bool fournierForand, int kind);
+    const gl::Program* marchProgram(bool fournierForand, bool bent, int lamps);
     Result<void> makePrograms();
     bool reserveSlices(int side, int layers);
     bool resizeTargets(int width, int height);
 };
 
+const gl::Program* Shafts::State::get(const gl::Program*& kept, const char* name, const Defines& defines) {
+    if (kept || failed) return kept;
+    gl::ProgramDesc desc{{name}, defines, name};
+    for (const auto& define : defines) desc.label += " " + define.first;
+    const auto made = device.programs().get(desc);
+    if (made) return kept = *made;
+    failed = true;
+    problem = made.error().message;
+    device.log(LogLevel::error, "water: " + problem);
+    return nullptr;
+}
+
+const gl::Program* Shafts::State::photonProgram(bool fournierForand, int kind) {
+    Defines defines;
+    if (fournierForand) defines.emplace_back("FOURNIER_FORAND", "1");
+    if (kind < kLamp) defines.emplace_back("NO_LAMPS", "1");
+    if (kind == kOpenSun) defines.emplace_back("NO_WAVE_SHADOWS", "1"), defines.emplace_back("NO_AIR", "1");
+    return get(photons[fournierForand][kind], "water/shaft_photons.comp", defines);
+}
+
+const gl::Program* Shafts::State::marchProgram(bool fournierForand, bool bent, int lamps) {
+    Defines defines;
+    if (fournierForand) defines.emplace_back("FOURNIER_FORAND", "1");
+    if (bent) defines.emplace_back("PATHS", "1");
+    if (lamps > 0) defines.emplace_back("LAMPS", "1");
+    if (lamps > 1) defines.emplace_back("LAMP_SHADOWS", "1");
+    return get(march[fournierForand][bent][lamps], "water/shaft_march.comp", defines);
+}
+
+// Those that the usual scene needs; others are built when first asked for.
 Result<void> Shafts::State::makePrograms() {
-    const auto get = [&](const char* name, Defines defines) {
-        gl::ProgramDesc desc{{name}, std::move(defines), name};
-        for (const auto& define : desc.defines) desc.label += " " + define.first;
-        return device.programs().get(desc);
-    };
     for (int i = 0; i < 2; ++i) {
-        const Defines paths = i ? Defines{{"PATHS", "1"}} : Defines{};
-        SHOAL_TRY_ASSIGN(upsample[i], get("water/shaft_upsample.comp", paths));
-        SHOAL_TRY_ASSIGN(blur[i], get("water/shaft_blur.comp", {{"AXIS", std::to_string(i)}}));
-        for (int phase = 0; phase < 2; ++phase) {
-            Defines marchDefines = paths, trace = {{"NO_LAMPS", "1"}};
-            if (phase) marchDefines.emplace_back("FOURNIER_FORAND", "1"), trace.emplace_back("FOURNIER_FORAND", "1");
-            if (!i) trace.emplace_back("NO_WAVE_SHADOWS", "1"), trace.emplace_back("NO_AIR", "1");
-            SHOAL_TRY_ASSIGN(march[phase][i], get("water/shaft_march.comp", marchDefines));
-            SHOAL_TRY_ASSIGN(photons[phase][i], get("water/shaft_photons.comp", trace));
-        }
+        get(upsample[i], "water/shaft_upsample.comp", i ? Defines{{"PATHS", "1"}} : Defines{});
+        get(blur[i], "water/shaft_blur.comp", {{"AXIS", std::to_string(i)}});
+        photonProgram(false, i);
+        marchProgram(false, i, 0);
     }
+    if (failed) return internalError(problem);
     return {};
 }
 
@@ -132,12 +171,18 @@ void Shafts::render(const frame::Context& context, const ShaftParams& params, co
     State& s = *state_;
     s.plan = makeShaftPlan(s.setup, params, body, views.slots(), context);
     s.photonCount = 0;
-    const int slots = s.plan.sunSlots;
-    if (!params.enabled || !scatters(body) || !lights.sun || slots == 0) return;
+    const int sunSlots = lights.sun ? s.plan.sunSlots : 0, lampSlots = s.plan.lampSlots;
+    if (!params.enabled || !scatters(body) || sunSlots + lampSlots == 0) return;
     SHOAL_ASSERT(body.gpuWaves);
     const gl::PassScope pass(context.timer, "shaft photons");
-    if (!s.reserveSlices(s.plan.side, slots * s.setup.slices)) {
+    const bool fournierForand = body.optics.phase == Optics::Phase::fournierForand;
+    const bool shaded = sunSlots > 0 && (shadedAbove(body, *lights.sun) || views.airDrawn());
+    const gl::Program* fromSun = sunSlots ? s.photonProgram(fournierForand, shaded ? kShadedSun : kOpenSun) : nullptr;
+    const gl::Program* fromLamps = lampSlots ? s.photonProgram(fournierForand, kLamp) : nullptr;
+    const int used = lampSlots ? SHOAL_SUN_SHAFT_SLOTS + lampSlots : sunSlots;
+    if (s.failed || !s.reserveSlices(s.plan.side, used * s.setup.slices)) {
         for (Vec4& rim : s.plan.block.rims) rim.x = -1;
+        s.plan.block.grid.w = 0;
         return;
     }
     const GLuint nothing = 0;
@@ -149,11 +194,16 @@ void Shafts::render(const frame::Context& context, const ShaftParams& params, co
     body.gpuWaves->bind();
     views.bind();
     gl::bindImage(0, s.slices, GL_READ_WRITE);
-    s.photonCount = std::int64_t(s.plan.cells) * s.plan.cells * slots;
-    const bool fournierForand = body.optics.phase == Optics::Phase::fournierForand;
-    const gl::Program& program = *s.photons[fournierForand][shadedAbove(body, *lights.sun) || views.airDrawn()];
-    program.set(0, 0);
-    program.dispatch(s.plan.cells, s.plan.cells, slots);
+    s.photonCount = std::int64_t(s.plan.cells) * s.plan.cells * (sunSlots + lampSlots);
+    const auto trace = [&](const gl::Program& program, int first, int count) {
+        for (int i = first; i < first + count; ++i) {
+            program.set(0, i);
+            program.set(1, int(s.plan.block.slots[i].w));
+            program.dispatch(s.plan.cells, s.plan.cells);
+        }
+    };
+    if (fromSun) trace(*fromSun, 0, sunSlots);
+    if (fromLamps) trace(*fromLamps, SHOAL_SUN_SHAFT_SLOTS, lampSlots);
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
 }
 
@@ -161,7 +211,6 @@ void Shafts::march(const frame::Context& context, const ShaftParams& params, con
                    const LightViews& views, const WaterPaths& paths, gl::TextureView viewDepth,
                    const ShaftOutputs& outputs) {
     State& s = *state_;
-    (void)views;
     if (!params.enabled || !scatters(body)) {
         const float nothing[4] = {0, 0, 0, 0};
         glClearTexImage(outputs.inscatter.name, 0, GL_RGBA, GL_FLOAT, nothing);
@@ -171,7 +220,10 @@ void Shafts::march(const frame::Context& context, const ShaftParams& params, con
     const int fullWidth = outputs.inscatter.width, fullHeight = outputs.inscatter.height;
     const int width = std::max(int(std::ceil(float(fullWidth) * scale)), 1),
               height = std::max(int(std::ceil(float(fullHeight) * scale)), 1);
-    if (!s.resizeTargets(width, height) || !s.reserveSlices(std::max(s.plan.side, 1), 1)) return;
+    const bool bent = bool(paths.path);
+    const gl::Program* program =
+        s.marchProgram(body.optics.phase == Optics::Phase::fournierForand, bent, lampsOf(body, lights));
+    if (!program || !s.resizeTargets(width, height) || !s.reserveSlices(std::max(s.plan.side, 1), 1)) return;
 
     const double sample = double(context.sampleIndex);
     s.plan.block.march = {float(std::clamp((params.steps + 3) / 4, 1, 256)), 1 / scale,
@@ -182,8 +234,8 @@ void Shafts::march(const frame::Context& context, const ShaftParams& params, con
     s.water.write(makeWaterBlock(body, lights));
     s.water.bindUniform(SHOAL_BLOCK_WATER);
     bindInput(SHOAL_UNIT_SHAFT_SLICES, s.slices);
+    views.bind();
     bindInput(SHOAL_UNIT_PASS, viewDepth);
-    const bool bent = bool(paths.path);
     if (bent) {
         bindInput(SHOAL_UNIT_WATER_SURFACE, paths.surfaceDepth);
         bindInput(SHOAL_UNIT_WATER_NORMAL, paths.surfaceNormal);
@@ -192,7 +244,7 @@ void Shafts::march(const frame::Context& context, const ShaftParams& params, con
     {
         const gl::PassScope pass(context.timer, "shaft march");
         s.sources.bindImage(0, GL_WRITE_ONLY);
-        s.march[body.optics.phase == Optics::Phase::fournierForand][bent]->dispatch(width, height);
+        program->dispatch(width, height);
         glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
     }
     {

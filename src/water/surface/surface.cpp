@@ -40,6 +40,12 @@ bool mayCross(const light::View& view, const Body& body) {
     return body.params.surfaceVisible && std::abs(view.eye.y - body.params.level) < height + reach;
 }
 
+using Defines = std::vector<std::pair<std::string, std::string>>;
+
+struct TracePrograms {
+    const gl::Program *mesh = nullptr, *path = nullptr;
+};
+
 }  // namespace
 
 struct Surface::State {
@@ -47,8 +53,8 @@ struct Surface::State {
 
     gl::Device& device;
     frame::Fullscreen fullscreen;
-    const gl::Program *mesh[2] = {}, *path[2] = {};  // away from the surface; so near that pixels begin on both sides
-    const gl::Program* compose[2] = {};              // without and with foam
+    TracePrograms traces[2][4];          // far from the surface and CROSSING; by what the waves lack
+    const gl::Program* compose[2] = {};  // without and with foam
     const gl::Program* terms = nullptr;
     gl::BlockBuffer<frame::ViewBlock> viewBlock;
     gl::BlockBuffer<WaterBlock> waterBlock;
@@ -67,24 +73,43 @@ struct Surface::State {
     std::vector<MirrorView> needed;
     SurfaceGrid grid;
 
+    Result<TracePrograms> makeTrace(bool crossing, Defines defines);
+    const TracePrograms& traceFor(bool crossing, const WaveField* waves);
     Result<void> makePrograms();
     Result<void> makeBuffers();
     Result<void> resize(int width, int height);
     Result<void> resizeTerms(int width, int height);
     SurfaceBlock blockFor(const SurfaceParams& params, const SurfaceInputs* inputs) const;
-    void drawMesh(const frame::Context& context, const Body& body, gl::TextureView opaque, bool crossing);
+    void drawMesh(const frame::Context& context, const Body& body, gl::TextureView opaque, const gl::Program& mesh);
     void bindPaths() const;
     void drawTerms(const frame::Context& context, const SurfaceInputs& inputs);
 };
 
+Result<TracePrograms> Surface::State::makeTrace(bool crossing, Defines defines) {
+    if (crossing) defines.emplace_back("CROSSING", "1");
+    TracePrograms made;
+    SHOAL_TRY_ASSIGN(
+        made.mesh,
+        device.programs().get({{"water/surface_mesh.vert", "water/surface_mesh.frag"}, defines, "water surface"}));
+    SHOAL_TRY_ASSIGN(made.path, frame::fullscreenProgram(device, "water/surface_path.frag", defines));
+    return made;
+}
+
+// Those that leave out the kinds of waves which the field lacks are built when they are first needed.
+const TracePrograms& Surface::State::traceFor(bool crossing, const WaveField* waves) {
+    const Defines defines = waves ? waveDefines(*waves) : Defines{};
+    std::size_t lacks = 0;
+    for (const auto& define : defines) lacks |= define.first == "SHOAL_WAVES_NO_TILES" ? 1 : 2;
+    TracePrograms& wanted = traces[crossing][lacks];
+    if (wanted.mesh) return wanted;
+    auto made = makeTrace(crossing, defines);
+    if (!made) device.log(LogLevel::error, made.error().message);
+    return wanted = made ? *made : traces[crossing][0];
+}
+
 Result<void> Surface::State::makePrograms() {
-    for (const int crossing : {0, 1}) {
-        std::vector<std::pair<std::string, std::string>> defines;
-        if (crossing) defines.emplace_back("CROSSING", "1");
-        SHOAL_TRY_ASSIGN(
-            mesh[crossing],
-            device.programs().get({{"water/surface_mesh.vert", "water/surface_mesh.frag"}, defines, "water surface"}));
-        SHOAL_TRY_ASSIGN(path[crossing], frame::fullscreenProgram(device, "water/surface_path.frag", defines));
+    for (const bool crossing : {false, true}) {
+        SHOAL_TRY_ASSIGN(traces[crossing][0], makeTrace(crossing, {}));
     }
     SHOAL_TRY_ASSIGN(compose[0], frame::fullscreenProgram(device, "water/surface_compose.frag"));
     SHOAL_TRY_ASSIGN(compose[1], frame::fullscreenProgram(device, "water/surface_compose.frag", {{"FOAM", "1"}}));
@@ -150,7 +175,8 @@ SurfaceBlock Surface::State::blockFor(const SurfaceParams& params, const Surface
     return b;
 }
 
-void Surface::State::drawMesh(const frame::Context& context, const Body& body, gl::TextureView opaque, bool crossing) {
+void Surface::State::drawMesh(const frame::Context& context, const Body& body, gl::TextureView opaque,
+                              const gl::Program& mesh) {
     const gl::PassScope pass(context.timer, "water surface");
     meshTarget.bind();
     const float zero[4] = {};
@@ -168,7 +194,7 @@ void Surface::State::drawMesh(const frame::Context& context, const Body& body, g
         glDisable(off);
     glFrontFace(GL_CCW);
     glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
-    mesh[crossing]->use();
+    mesh.use();
     vertices.bind();
     glDrawElementsInstanced(GL_TRIANGLES, kIndexCount, GL_UNSIGNED_SHORT, nullptr, GLsizei(grid.blocks.size()));
 }
@@ -234,15 +260,15 @@ void Surface::trace(const frame::Context& context, const SurfaceParams& params, 
     s.block.write(s.blockFor(params, nullptr));
     s.block.bindUniform(SHOAL_BLOCK_WATER_PASS);
     body.gpuWaves->bind();
-    const bool crossing = mayCross(context.view, body);
-    s.drawMesh(context, body, depth, crossing);
+    const TracePrograms& programs = s.traceFor(mayCross(context.view, body), body.waves);
+    s.drawMesh(context, body, depth, *programs.mesh);
 
     const gl::PassScope pass(context.timer, "water path");
     s.pathTarget.bind();
     s.bindPaths();
     gl::bindTexture(SHOAL_UNIT_PASS, viewDepth);
     glBindSampler(SHOAL_UNIT_PASS, 0);
-    s.fullscreen.draw(*s.path[crossing]);
+    s.fullscreen.draw(*programs.path);
 }
 
 WaterPaths Surface::paths() const {
