@@ -18,7 +18,8 @@ constexpr const char* kTown = "scenes/town_street.glb";
 std::string scriptOf(int repetitions) {
     std::string script = "realtime\nwait full\ndrag left 400 340 440 350 20\nwait full\n";
     for (int i = 0; i < repetitions; ++i) {
-        script += "times on\ndrag left " + std::string(i % 2 ? "600 360 300 340" : "300 340 600 360") + " 60\ntimes off\n";
+        script +=
+            "times on\ndrag left " + std::string(i % 2 ? "600 360 300 340" : "300 340 600 360") + " 60\ntimes off\n";
         script += "mark rest\nwait full\nmark full\nwait 3\nlatency 30 5\nwait full\n";
     }
     return script + "quit\n";

@@ -86,8 +86,9 @@ void addView(CLI::App& app, ViewOptions& o) {
         ->check(CLI::IsMember({"auto", "cpu"}));
     verb->add_option("--script", o.script, "does what this file says instead of a person (docs/viewer.md)");
     verb->add_flag("--debug", o.debug, "OpenGL debug messages to stderr");
-    verb->footer("\nF1 in the window lists the keys.\n\nExamples:\n  shoal view scenes/plaza.toml\n"
-                 "  shoal view ship.glb evening.hdr\n");
+    verb->footer(
+        "\nF1 in the window lists the keys.\n\nExamples:\n  shoal view scenes/plaza.toml\n"
+        "  shoal view ship.glb evening.hdr\n");
 }
 
 void addInfo(CLI::App& app, InfoOptions& o) {

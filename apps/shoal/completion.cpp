@@ -48,8 +48,10 @@ _shoal() {
                 valued += "                " + names + ") values='" + joined(option.values) + "' ;;\n";
         }
         script += "        " + verb.name + ")\n            words='" + joined(all) + "'\n";
-        if (!valued.empty()) script += "            case \"$prev\" in\n" + valued + "            esac ;;\n";
-        else script += "            ;;\n";
+        if (!valued.empty())
+            script += "            case \"$prev\" in\n" + valued + "            esac ;;\n";
+        else
+            script += "            ;;\n";
     }
     script += "        *) words='" + joined(namesOf(verbs)) + R"( --help --version' ;;
     esac
@@ -68,10 +70,14 @@ complete -F _shoal shoal
 }
 
 std::string zshScript(const std::vector<VerbWords>& verbs) {
-    std::string script = "#compdef shoal\n# zsh completion for shoal: save it as _shoal in a folder of $fpath, or `eval \"$(shoal completion zsh)\"`\n"
-                         "_shoal() {\n    local -a verbs\n    verbs=(\n";
+    std::string script =
+        "#compdef shoal\n# zsh completion for shoal: save it as _shoal in a folder of $fpath, or `eval \"$(shoal "
+        "completion zsh)\"`\n"
+        "_shoal() {\n    local -a verbs\n    verbs=(\n";
     for (const VerbWords& verb : verbs) script += "        '" + verb.name + ":" + plain(verb.sentence) + "'\n";
-    script += "    )\n    if (( CURRENT == 2 )); then\n        _describe 'verb' verbs\n        return\n    fi\n    case \"$words[2]\" in\n";
+    script +=
+        "    )\n    if (( CURRENT == 2 )); then\n        _describe 'verb' verbs\n        return\n    fi\n    case "
+        "\"$words[2]\" in\n";
     for (const VerbWords& verb : verbs) {
         script += "        " + verb.name + ")\n            _arguments \\\n";
         for (const OptionWords& option : verb.options) {
@@ -86,16 +92,19 @@ std::string zshScript(const std::vector<VerbWords>& verbs) {
         }
         script += "                '*:file:_files' ;;\n";
     }
-    return script + "    esac\n}\nif [[ ${funcstack[1]} == _shoal ]]; then _shoal \"$@\"; else compdef _shoal shoal; fi\n";
+    return script +
+           "    esac\n}\nif [[ ${funcstack[1]} == _shoal ]]; then _shoal \"$@\"; else compdef _shoal shoal; fi\n";
 }
 
 std::string fishScript(const std::vector<VerbWords>& verbs) {
-    std::string script = "# fish completion for shoal: `shoal completion fish | source`, or save it in\n"
-                         "# ~/.config/fish/completions/shoal.fish\n"
-                         "complete -c shoal -n __fish_use_subcommand -l help -d 'tells more'\n"
-                         "complete -c shoal -n __fish_use_subcommand -l version -d 'version and commit'\n";
+    std::string script =
+        "# fish completion for shoal: `shoal completion fish | source`, or save it in\n"
+        "# ~/.config/fish/completions/shoal.fish\n"
+        "complete -c shoal -n __fish_use_subcommand -l help -d 'tells more'\n"
+        "complete -c shoal -n __fish_use_subcommand -l version -d 'version and commit'\n";
     for (const VerbWords& verb : verbs)
-        script += "complete -c shoal -f -n __fish_use_subcommand -a " + verb.name + " -d '" + plain(verb.sentence) + "'\n";
+        script +=
+            "complete -c shoal -f -n __fish_use_subcommand -a " + verb.name + " -d '" + plain(verb.sentence) + "'\n";
     for (const VerbWords& verb : verbs) {
         for (const OptionWords& option : verb.options) {
             script += "complete -c shoal -n '__fish_seen_subcommand_from " + verb.name + "'";

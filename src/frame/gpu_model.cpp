@@ -252,8 +252,8 @@ Result<GpuModel> MeshStore::add(gl::Device& device, const Model& model, int firs
     SHOAL_TRY_ASSIGN(const std::uint32_t firstMorph, appendAll(device, morphs, packed.morphs));
     for (std::vector<GpuPrimitive>& primitives : gpu.meshes)
         for (GpuPrimitive& p : primitives)
-            p.firstVertex += firstVertex, p.firstIndex += firstIndex, p.firstCoarse += firstIndex, p.firstInfluence += firstInfluence,
-                p.firstMorph += firstMorph;
+            p.firstVertex += firstVertex, p.firstIndex += firstIndex, p.firstCoarse += firstIndex,
+                p.firstInfluence += firstInfluence, p.firstMorph += firstMorph;
     return gpu;
 }
 

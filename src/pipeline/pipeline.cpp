@@ -33,9 +33,9 @@ struct Loaded {
     frame::ShadowSetup shadowSetup;
     std::optional<frame::Geometry> geometry;
     std::optional<frame::Shadows> shadows;
-    std::optional<DraftShadows> draft;  // what drafts are shaded with in their place
-    float shadowTime = 0;               // of the last frame that was no draft
-    bool drewDraft = false;             // the last frame was one
+    std::optional<DraftShadows> draft;         // what drafts are shaded with in their place
+    float shadowTime = 0;                      // of the last frame that was no draft
+    bool drewDraft = false;                    // the last frame was one
     std::vector<frame::InstanceId> instances;  // one a content instance
     bool moves = false;                        // whether any instance walks
     std::unique_ptr<WaterPass> water;          // null: none

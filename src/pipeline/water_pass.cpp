@@ -152,9 +152,9 @@ void WaterPass::draw(const frame::Context& context, const WaterScene& scene, con
     targets.forward().bind();
     scene.lighting.bind();
     scene.shadows.bind();
-    water_.surface().compose(context, params_.surface, water_.body(), lights,
-                             {targets.opaqueCopy(), g.viewDepth, scatters ? inscatter_.view() : gl::TextureView(),
-                              mirrors_});
+    water_.surface().compose(
+        context, params_.surface, water_.body(), lights,
+        {targets.opaqueCopy(), g.viewDepth, scatters ? inscatter_.view() : gl::TextureView(), mirrors_});
 }
 
 }  // namespace shoal::pipeline

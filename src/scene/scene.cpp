@@ -317,7 +317,8 @@ Result<Scene> sceneOfTree(const Tree& root, const std::filesystem::path& file) {
     if (const Tree* tree = root.find("render")) SHOAL_TRY(bindAll(*tree, "render", scene.render));
     if (const Tree* tree = root.find("ground")) {
         if (tree->kind != Tree::Kind::value || tree->value.kind != FieldValue::Kind::boolean)
-            return errorAt(tree->place, "ground", std::string("found ") + describeKind(*tree) + ", expected true or false");
+            return errorAt(tree->place, "ground",
+                           std::string("found ") + describeKind(*tree) + ", expected true or false");
         scene.bareModel = tree->value.boolean;
     }
     if (const Tree* tree = root.find("model")) {

@@ -20,9 +20,8 @@ std::string numberText(double number) {
 }
 
 bool isBareKey(std::string_view key) {
-    return !key.empty() && std::all_of(key.begin(), key.end(), [](unsigned char c) {
-        return std::isalnum(c) || c == '_' || c == '-';
-    });
+    return !key.empty() &&
+           std::all_of(key.begin(), key.end(), [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; });
 }
 
 std::string keyText(std::string_view key) { return isBareKey(key) ? std::string(key) : quotedToml(key); }
@@ -164,8 +163,8 @@ bool editOne(std::string& text, const std::string& key, const Tree& wanted) {
         if (!parent.empty() && parent.find_first_of(".[") == std::string::npos && !statements.find(parent)) {
             const Tree* table = findPath(wanted, parent);
             if (!table || table->kind != Tree::Kind::table) return false;
-            text += (text.empty() || text.back() == '\n' ? "\n[" : "\n\n[") + keyText(parent) + "]\n" +
-                    keyText(name) + " = " + inlineText(*value) + "\n";
+            text += (text.empty() || text.back() == '\n' ? "\n[" : "\n\n[") + keyText(parent) + "]\n" + keyText(name) +
+                    " = " + inlineText(*value) + "\n";
             return true;
         }
     }
@@ -174,8 +173,8 @@ bool editOne(std::string& text, const std::string& key, const Tree& wanted) {
 
 std::optional<std::string> editedText(std::string text, const std::vector<Override>& changes, const Tree& wanted,
                                       const std::filesystem::path& file) {
-    for (const char* other : {"camera.orbit", "camera.path", "camera.poses", "camera.model", "sun.elevationDeg",
-                              "sun.azimuthDeg"}) {
+    for (const char* other :
+         {"camera.orbit", "camera.path", "camera.poses", "camera.model", "sun.elevationDeg", "sun.azimuthDeg"}) {
         if (findPath(wanted, other)) continue;
         const Statements statements = Statements::of(text);
         if (const Statement* statement = statements.find(other))

@@ -50,7 +50,8 @@ protected:
         return test::runTool(words, options());
     }
     test::RunOptions options() const {
-        return {.folder = folder.path(), .environment = {{"XDG_STATE_HOME", (folder / "state").string()}}, .limitS = 110};
+        return {
+            .folder = folder.path(), .environment = {{"XDG_STATE_HOME", (folder / "state").string()}}, .limitS = 110};
     }
     // "objects=143" of the line that `print LABEL` wrote.
     static long valueOf(const ProgramRun& run, const std::string& label, const std::string& name) {
@@ -128,7 +129,8 @@ TEST_F(ViewWindow, ABareModelIsSavedToo) {
     ASSERT_EQ(drawn.exitCode, 0) << drawn.describe();
     expectSamePicture("a.png", "drawn.png");
     expectSamePicture("b.png", "drawn.png");
-    const ProgramRun bare = test::runTool({"render", "sub/model.obj", "-o", "bare.png", "--size", "239x344"}, options());
+    const ProgramRun bare =
+        test::runTool({"render", "sub/model.obj", "-o", "bare.png", "--size", "239x344"}, options());
     EXPECT_EQ(bare.exitCode, 0) << bare.describe();
 }
 
@@ -167,7 +169,8 @@ TEST_F(ViewWindow, TwoHundredSizesLeakNothing) {
     SHOAL_NEEDS_SCREEN(screen)
     std::string script = "wait full\nprint start\n";
     for (int i = 0; i < 200; ++i)
-        script += "resize " + std::to_string(300 + 37 * i % 500) + " " + std::to_string(200 + 53 * i % 400) + "\nwait 1\n";
+        script +=
+            "resize " + std::to_string(300 + 37 * i % 500) + " " + std::to_string(200 + 53 * i % 400) + "\nwait 1\n";
     script += "resize 640 400\nwait 12\nwait full\nprint end\nscreenshot end.png\nquit\n";
     const ProgramRun run = view(script);
     ASSERT_EQ(run.exitCode, 0) << run.describe();
@@ -250,7 +253,8 @@ quit
     ASSERT_TRUE(split) << split.error().message;
     const int width = int(valueOf(run, "start", "picture")), y = 300;
     const auto brightness = [&](int x) {
-        const std::uint8_t* p = split->pixels.data() + (std::size_t(y) * std::size_t(split->width) + std::size_t(x)) * 4;
+        const std::uint8_t* p =
+            split->pixels.data() + (std::size_t(y) * std::size_t(split->width) + std::size_t(x)) * 4;
         return int(p[0]) + p[1] + p[2];
     };
     ASSERT_GT(width, 100);

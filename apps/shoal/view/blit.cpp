@@ -33,8 +33,8 @@ void blitPictures(Viewer& v) {
     const int height = v.window.height();
     const float split = v.comparison && v.comparison->picture.hasPicture() ? v.comparison->divider : 1;
     if (v.picture.hasPicture()) {
-        const gl::TextureView shown = v.inspector.active() && v.inspector.texture() ? v.inspector.texture()
-                                                                                    : v.picture.pipeline().display();
+        const gl::TextureView shown =
+            v.inspector.active() && v.inspector.texture() ? v.inspector.texture() : v.picture.pipeline().display();
         blitPart(shown, v.viewport, height, 0, split);
     }
     if (split < 1) blitPart(v.comparison->picture.pipeline().display(), v.viewport, height, split, 1);

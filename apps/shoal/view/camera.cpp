@@ -28,8 +28,7 @@ void ViewCamera::take(const light::Camera& camera, const scene::CameraSpec& spec
     spec_.near = camera.nearZ;
     spec_.heightM = camera.heightM;
     if (!camera.intrinsics) spec_.fovDeg = std::clamp(degrees(camera.verticalFov), 1.0f, 179.0f);
-    spec_.projection =
-        camera.projection == light::Camera::Projection::orthographic ? "orthographic" : "perspective";
+    spec_.projection = camera.projection == light::Camera::Projection::orthographic ? "orthographic" : "perspective";
 }
 
 ViewCamera::Axes ViewCamera::axes() const {

@@ -20,12 +20,12 @@ public:
     const scene::CameraSpec& spec() const { return spec_; }
     void setFree() { free_ = true; }
 
-    void orbit(float yaw, float pitch);              // radians, about the pivot
-    void look(float yaw, float pitch);               // radians, about the eye
+    void orbit(float yaw, float pitch);                 // radians, about the pivot
+    void look(float yaw, float pitch);                  // radians, about the eye
     void pan(float rightPx, float upPx, int heightPx);  // the pivot's surface follows the cursor
-    void dolly(float steps);                         // towards the pivot, a tenth of the way a step
-    void move(Vec3 rightUpAhead, float metres);      // eye and pivot together
-    void frame(const Bounds& bounds, float aspect);  // all of it in the picture, from the direction it is seen from
+    void dolly(float steps);                            // towards the pivot, a tenth of the way a step
+    void move(Vec3 rightUpAhead, float metres);         // eye and pivot together
+    void frame(const Bounds& bounds, float aspect);     // all of it in the picture, from the direction it is seen from
     void lookFrom(Side side, const Bounds& bounds, float aspect);
     void toggleOrthographic();
 

@@ -41,7 +41,8 @@ std::string drawFolder() {
     if (!fs::is_directory(folder, error)) folder = folder.parent_path();
     std::string chosen;
     ImGui::BeginChild("files", {ImGui::GetFontSize() * 40, ImGui::GetFontSize() * 18}, true);
-    if (folder.has_parent_path() && ImGui::Selectable("..")) path = folder.lexically_normal().parent_path().parent_path().string() + "/";
+    if (folder.has_parent_path() && ImGui::Selectable(".."))
+        path = folder.lexically_normal().parent_path().parent_path().string() + "/";
     std::vector<fs::path> folders, files;
     for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
         if (it->path().filename().string().rfind('.', 0) == 0) continue;
@@ -85,10 +86,12 @@ void drawDialogs(Viewer& v) {
     const ImVec2 window = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos({0.5f * window.x, 0.4f * window.y}, ImGuiCond_Always, {0.5f, 0.5f});
     bool open = true;
-    ImGui::Begin(title, &open, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoCollapse);
+    ImGui::Begin(title, &open,
+                 ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoCollapse);
     ImGui::SetNextItemWidth(ImGui::GetFontSize() * 40);
     if (fresh) ImGui::SetKeyboardFocusHere();
-    bool go = ImGui::InputText("##path", &path, ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
+    bool go =
+        ImGui::InputText("##path", &path, ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
     notePlace(v.places, "dialog:path");
     if (shown == Dialog::open) {
         const std::string chosen = drawFolder();

@@ -50,12 +50,10 @@ void listen(GLFWwindow* window, std::vector<Event>& queue) {
         if (key != GLFW_KEY_UNKNOWN && action != GLFW_REPEAT)
             push(w, Event::Kind::key, key, action == GLFW_PRESS, mods);
     });
-    glfwSetCharCallback(window, [](GLFWwindow* w, unsigned code) {
-        push(w, Event::Kind::character, int(code), true, 0);
-    });
-    glfwSetWindowFocusCallback(window, [](GLFWwindow* w, int focused) {
-        push(w, Event::Kind::focus, 0, focused == GLFW_TRUE, 0);
-    });
+    glfwSetCharCallback(window,
+                        [](GLFWwindow* w, unsigned code) { push(w, Event::Kind::character, int(code), true, 0); });
+    glfwSetWindowFocusCallback(
+        window, [](GLFWwindow* w, int focused) { push(w, Event::Kind::focus, 0, focused == GLFW_TRUE, 0); });
     glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** files) {
         Event event;
         event.kind = Event::Kind::drop;

@@ -11,10 +11,10 @@ namespace shoal::viewer {
 
 struct Event {
     enum class Kind { move, button, scroll, key, character, drop, close, focus } kind = Kind::move;
-    double x = 0, y = 0;       // move: framebuffer pixels from the top left; scroll: steps
-    int code = 0;              // key: GLFW_KEY_...; button: GLFW_MOUSE_BUTTON_...; character: code point
-    bool pressed = false;      // key, button; focus: gained
-    int mods = 0;              // GLFW_MOD_...
+    double x = 0, y = 0;                  // move: framebuffer pixels from the top left; scroll: steps
+    int code = 0;                         // key: GLFW_KEY_...; button: GLFW_MOUSE_BUTTON_...; character: code point
+    bool pressed = false;                 // key, button; focus: gained
+    int mods = 0;                         // GLFW_MOD_...
     std::vector<std::string> files = {};  // drop
 };
 

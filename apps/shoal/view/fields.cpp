@@ -131,7 +131,8 @@ std::vector<FieldGroup> groupsOf(const scene::Scene& scene) {
     for (std::size_t i = 0; i < scene.models.size(); ++i) {
         const scene::ModelEntry& entry = scene.models[i];
         const std::string name = std::filesystem::path(entry.model.file).filename().string();
-        add(named("Model", i, entry.placement.name.empty() ? name : entry.placement.name), entry.key, entry.model, true);
+        add(named("Model", i, entry.placement.name.empty() ? name : entry.placement.name), entry.key, entry.model,
+            true);
         addFields(groups.back().fields, entry.key, entry.placement);
         addFields(groups.back().fields, entry.key + ".copies", entry.copies);
     }

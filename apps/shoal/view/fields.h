@@ -18,8 +18,8 @@ struct FieldInfo {
     std::string name, unit, sentence;
     double lowest = -1e30, highest = 1e30;
     std::vector<std::string> choices;
-    std::vector<double> numbers;  // boolean: 0 or 1
-    std::string text;             // Kind::text
+    std::vector<double> numbers;      // boolean: 0 or 1
+    std::string text;                 // Kind::text
     std::string value, defaultValue;  // as --set takes them
 };
 
@@ -42,9 +42,7 @@ inline void take(FieldInfo& info, std::uint32_t value) {
 inline void take(FieldInfo& info, float value) { info.numbers = {double(value)}; }
 inline void take(FieldInfo& info, Vec2 v) { info.numbers = {double(v.x), double(v.y)}; }
 inline void take(FieldInfo& info, Vec3 v) { info.numbers = {double(v.x), double(v.y), double(v.z)}; }
-inline void take(FieldInfo& info, Vec4 v) {
-    info.numbers = {double(v.x), double(v.y), double(v.z), double(v.w)};
-}
+inline void take(FieldInfo& info, Vec4 v) { info.numbers = {double(v.x), double(v.y), double(v.z), double(v.w)}; }
 inline void take(FieldInfo& info, const std::string& value) { info.kind = FieldInfo::Kind::text, info.text = value; }
 }  // namespace detail
 

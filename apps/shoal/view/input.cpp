@@ -217,7 +217,8 @@ void Viewer::press(int key, int mods) {
             break;
         case GLFW_KEY_C:
             flyMode = !flyMode;
-            say(flyMode ? "fly: drag looks about, W A S D Q E move, the wheel sets the speed" : "orbit: drag circles the pivot");
+            say(flyMode ? "fly: drag looks about, W A S D Q E move, the wheel sets the speed"
+                        : "orbit: drag circles the pivot");
             break;
         case GLFW_KEY_P:
             showPanels = !showPanels;

@@ -77,8 +77,8 @@ ByteImage colorsOf(const std::string& aov, const Image& image, std::string& rang
     else if (isMotion)
         std::snprintf(text, sizeof text, "grey 0, full colour %.3g %s", double(most), unit.c_str());
     else
-        std::snprintf(text, sizeof text, "%.4g .. %.4g %s", isFraction ? 0.0 : double(low), isFraction ? 1.0 : double(high),
-                      unit.c_str());
+        std::snprintf(text, sizeof text, "%.4g .. %.4g %s", isFraction ? 0.0 : double(low),
+                      isFraction ? 1.0 : double(high), unit.c_str());
     range = text;
     for (int y = 0; y < image.height; ++y) {
         for (int x = 0; x < image.width; ++x) {
@@ -89,7 +89,8 @@ ByteImage colorsOf(const std::string& aov, const Image& image, std::string& rang
             else if (isId)
                 c = v[0] > 0 ? colorOfId(std::uint32_t(v[0])) : Vec3{};
             else if (isNormal)
-                c = v[0] == 0 && v[1] == 0 && v[2] == 0 ? Vec3{} : Vec3{v[0], v[1], v[2]} * 0.5f + Vec3{0.5f, 0.5f, 0.5f};
+                c = v[0] == 0 && v[1] == 0 && v[2] == 0 ? Vec3{}
+                                                        : Vec3{v[0], v[1], v[2]} * 0.5f + Vec3{0.5f, 0.5f, 0.5f};
             else if (isMotion)
                 c = {0.5f + 0.5f * v[0] / std::max(most, 1e-6f), 0.5f + 0.5f * v[1] / std::max(most, 1e-6f), 0.5f};
             else if (isFraction)

@@ -40,10 +40,13 @@ void drawDivider(Viewer& v) {
     list->AddLine({x, top}, {x, bottom}, IM_COL32(0, 0, 0, 160), 4 * s);
     list->AddLine({x, top}, {x, bottom}, IM_COL32(255, 255, 255, 230), 2 * s);
     list->AddCircleFilled({x, middle}, 9 * s, IM_COL32(255, 255, 255, 240));
-    list->AddTriangleFilled({x - 6 * s, middle}, {x - 2 * s, middle - 4 * s}, {x - 2 * s, middle + 4 * s}, IM_COL32(40, 40, 40, 255));
-    list->AddTriangleFilled({x + 6 * s, middle}, {x + 2 * s, middle - 4 * s}, {x + 2 * s, middle + 4 * s}, IM_COL32(40, 40, 40, 255));
+    list->AddTriangleFilled({x - 6 * s, middle}, {x - 2 * s, middle - 4 * s}, {x - 2 * s, middle + 4 * s},
+                            IM_COL32(40, 40, 40, 255));
+    list->AddTriangleFilled({x + 6 * s, middle}, {x + 2 * s, middle - 4 * s}, {x + 2 * s, middle + 4 * s},
+                            IM_COL32(40, 40, 40, 255));
     const auto label = [&](const char* text, float at) {
-        list->AddRectFilled({at - 4 * s, top + 6 * s}, {at + ImGui::CalcTextSize(text).x + 4 * s, top + 10 * s + ImGui::GetFontSize()},
+        list->AddRectFilled({at - 4 * s, top + 6 * s},
+                            {at + ImGui::CalcTextSize(text).x + 4 * s, top + 10 * s + ImGui::GetFontSize()},
                             IM_COL32(0, 0, 0, 140), 3 * s);
         list->AddText({at, top + 8 * s}, IM_COL32(255, 255, 255, 255), text);
     };
@@ -59,8 +62,8 @@ void drawReadings(Viewer& v) {
     if (readings.empty()) return;
     const float em = ImGui::GetFontSize();
     const bool right = x > 0.6f, low = y > 0.6f;
-    ImGui::SetNextWindowPos({float(v.cursorX) + (right ? -em : em), float(v.cursorY) + (low ? -em : em)}, ImGuiCond_Always,
-                            {right ? 1.0f : 0.0f, low ? 1.0f : 0.0f});
+    ImGui::SetNextWindowPos({float(v.cursorX) + (right ? -em : em), float(v.cursorY) + (low ? -em : em)},
+                            ImGuiCond_Always, {right ? 1.0f : 0.0f, low ? 1.0f : 0.0f});
     ImGui::SetNextWindowBgAlpha(0.9f);
     ImGui::Begin("readings", nullptr, kOverlay | ImGuiWindowFlags_NoInputs);
     ImGui::TextDisabled("pixel %d, %d", int(v.cursorX) - a.x, int(v.cursorY) - a.y);
@@ -94,9 +97,11 @@ void drawOverlays(Viewer& v) {
     if (v.noteSeconds_ > 0)
         strip("note", v.note_, float(a.x) + margin, bottom, 1, width, false);
     else if (v.inspector.active())
-        strip("buffer", v.inspector.chosen() + ": " + v.inspector.rangeText(), float(a.x) + margin, bottom, 1, width, false);
+        strip("buffer", v.inspector.chosen() + ": " + v.inspector.rangeText(), float(a.x) + margin, bottom, 1, width,
+              false);
     else if (!v.settings.hintRead && v.picture.hasScene())
-        strip("hint", "Drag to look around, right drag to move, wheel to go nearer, F to see everything, F1 for all keys",
+        strip("hint",
+              "Drag to look around, right drag to move, wheel to go nearer, F to see everything, F1 for all keys",
               float(a.x) + margin, bottom, 1, width, false);
     drawReadings(v);
 }

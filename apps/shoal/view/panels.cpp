@@ -100,8 +100,7 @@ void drawSidePanel(Viewer& v) {
     if (ImGui::Button("undo")) v.undo();
     ImGui::SameLine();
     if (ImGui::Button("redo")) v.redo();
-    if (v.comparison)
-        ImGui::TextDisabled("parameters of the %s side", v.comparison->editOther ? "right" : "left");
+    if (v.comparison) ImGui::TextDisabled("parameters of the %s side", v.comparison->editOther ? "right" : "left");
     if (filterText.empty()) {
         drawPerformance(v);
         drawBuffers(v);

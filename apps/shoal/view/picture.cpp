@@ -15,7 +15,8 @@ bool sameCamera(const std::optional<light::Camera>& a, const std::optional<light
     if (a.has_value() != b.has_value()) return false;
     if (!a) return true;
     return a->worldFromView == b->worldFromView && a->verticalFov == b->verticalFov && a->heightM == b->heightM &&
-           a->nearZ == b->nearZ && a->projection == b->projection && a->intrinsics.has_value() == b->intrinsics.has_value();
+           a->nearZ == b->nearZ && a->projection == b->projection &&
+           a->intrinsics.has_value() == b->intrinsics.has_value();
 }
 
 bool sameWanted(const Picture::Wanted& a, const Picture::Wanted& b) {

@@ -47,11 +47,12 @@ public:
         int width = 0, height = 0;  // of the viewport, pixels
         float time = 0;
         std::optional<light::Camera> camera;
-        bool moving = false;        // drawn coarse, to be replaced soon
-        float scale = 1;            // of a coarse picture
+        bool moving = false;  // drawn coarse, to be replaced soon
+        float scale = 1;      // of a coarse picture
         std::vector<std::string> aovs;
     };
-    // Draws the next part of it: a coarse picture, or one more sample of the full one. Does nothing when it is complete.
+    // Draws the next part of it: a coarse picture, or one more sample of the full one. Does nothing when it is
+    // complete.
     Result<void> draw(const Wanted& wanted);
     // Draws all that is missing.
     Result<void> finish(const Wanted& wanted);

@@ -40,12 +40,16 @@ Event keyEvent(int key, bool pressed, int mods) {
 }
 
 int keyNamed(const std::string& name) {
-    static const std::map<std::string, int> kNames = {
-        {"Escape", GLFW_KEY_ESCAPE}, {"Enter", GLFW_KEY_ENTER},   {"Tab", GLFW_KEY_TAB},     {"Space", GLFW_KEY_SPACE},
-        {"Home", GLFW_KEY_HOME},     {"F1", GLFW_KEY_F1},         {"F12", GLFW_KEY_F12},     {"Comma", GLFW_KEY_COMMA},
-        {"Period", GLFW_KEY_PERIOD}, {"Left", GLFW_KEY_LEFT},     {"Right", GLFW_KEY_RIGHT}, {"Up", GLFW_KEY_UP},
-        {"Down", GLFW_KEY_DOWN},     {"Backspace", GLFW_KEY_BACKSPACE}, {"KP0", GLFW_KEY_KP_0}, {"KP1", GLFW_KEY_KP_1},
-        {"KP3", GLFW_KEY_KP_3},      {"KP5", GLFW_KEY_KP_5},      {"KP7", GLFW_KEY_KP_7},    {"Shift", GLFW_KEY_LEFT_SHIFT}};
+    static const std::map<std::string, int> kNames = {{"Escape", GLFW_KEY_ESCAPE}, {"Enter", GLFW_KEY_ENTER},
+                                                      {"Tab", GLFW_KEY_TAB},       {"Space", GLFW_KEY_SPACE},
+                                                      {"Home", GLFW_KEY_HOME},     {"F1", GLFW_KEY_F1},
+                                                      {"F12", GLFW_KEY_F12},       {"Comma", GLFW_KEY_COMMA},
+                                                      {"Period", GLFW_KEY_PERIOD}, {"Left", GLFW_KEY_LEFT},
+                                                      {"Right", GLFW_KEY_RIGHT},   {"Up", GLFW_KEY_UP},
+                                                      {"Down", GLFW_KEY_DOWN},     {"Backspace", GLFW_KEY_BACKSPACE},
+                                                      {"KP0", GLFW_KEY_KP_0},      {"KP1", GLFW_KEY_KP_1},
+                                                      {"KP3", GLFW_KEY_KP_3},      {"KP5", GLFW_KEY_KP_5},
+                                                      {"KP7", GLFW_KEY_KP_7},      {"Shift", GLFW_KEY_LEFT_SHIFT}};
     if (const auto found = kNames.find(name); found != kNames.end()) return found->second;
     if (name.size() == 1 && std::isalnum(static_cast<unsigned char>(name[0])))
         return std::toupper(static_cast<unsigned char>(name[0]));
@@ -53,7 +57,9 @@ int keyNamed(const std::string& name) {
 }
 
 int buttonNamed(const std::string& name) {
-    return name == "right" ? GLFW_MOUSE_BUTTON_RIGHT : name == "middle" ? GLFW_MOUSE_BUTTON_MIDDLE : GLFW_MOUSE_BUTTON_LEFT;
+    return name == "right"    ? GLFW_MOUSE_BUTTON_RIGHT
+           : name == "middle" ? GLFW_MOUSE_BUTTON_MIDDLE
+                              : GLFW_MOUSE_BUTTON_LEFT;
 }
 
 bool differs(const ByteImage& a, const ByteImage& b, const Area& where) {
@@ -97,8 +103,7 @@ void Script::click(int button, double x, double y, int mods, int times) {
 Result<void> Script::step(Viewer& viewer, std::vector<Event>& events) {
     if (until_) {
         if (!until_(viewer)) {
-            if (++waited_ > kLongestWait)
-                return badInput(file_ + ":" + std::to_string(next_) + ": waited for ever");
+            if (++waited_ > kLongestWait) return badInput(file_ + ":" + std::to_string(next_) + ": waited for ever");
             return {};
         }
         until_ = nullptr;
@@ -188,7 +193,8 @@ Result<void> Script::start(Viewer& viewer, const std::vector<std::string>& words
         if (verb == "point") {
             later([=](Viewer&, auto& events) { events.push_back(moveTo(x, y)); });
         } else if (verb == "slide") {  // slide WIDGET FROM TO: fractions of its width
-            const double from = double(at.x) + number(2) * double(at.width), to = double(at.x) + number(3) * double(at.width);
+            const double from = double(at.x) + number(2) * double(at.width),
+                         to = double(at.x) + number(3) * double(at.width);
             later([=](Viewer&, auto& events) { events.push_back(moveTo(from, y)); });
             later([=](Viewer&, auto& events) { events.push_back(buttonEvent(0, true, 0)); });
             for (int i = 1; i <= 8; ++i)
@@ -220,7 +226,8 @@ Result<void> Script::start(Viewer& viewer, const std::vector<std::string>& words
                 events.push_back(event);
             });
     } else if (verb == "resize") {
-        later([w = int(number(1)), h = int(number(2))](Viewer& v, auto&) { glfwSetWindowSize(v.window.handle(), w, h); });
+        later(
+            [w = int(number(1)), h = int(number(2))](Viewer& v, auto&) { glfwSetWindowSize(v.window.handle(), w, h); });
     } else if (verb == "drop") {
         later([rest](Viewer&, auto& events) {
             Event event;
@@ -260,8 +267,8 @@ Result<void> Script::start(Viewer& viewer, const std::vector<std::string>& words
         later([x = number(1), y = number(2), this](Viewer& v, auto& events) {
             events.push_back(moveTo(v.viewport.x + 0.5 * v.viewport.width, v.viewport.y + 0.5 * v.viewport.height));
             events.push_back(buttonEvent(0, true, 0));
-            events.push_back(moveTo(v.viewport.x + 0.5 * v.viewport.width + x,
-                                    v.viewport.y + 0.5 * v.viewport.height + y));
+            events.push_back(
+                moveTo(v.viewport.x + 0.5 * v.viewport.width + x, v.viewport.y + 0.5 * v.viewport.height + y));
             latencyTurns_ = 0;
         });
         until_ = nullptr;

@@ -90,9 +90,7 @@ void applyStyle(Theme theme, float scale) {
 }
 
 unsigned accentColor() { return ImGui::GetColorU32(ImGuiCol_SliderGrab); }
-unsigned warningColor() {
-    return ImGui::GetColorU32(current == Theme::dark ? rgb(0xf0a35a) : rgb(0xa84a00));
-}
+unsigned warningColor() { return ImGui::GetColorU32(current == Theme::dark ? rgb(0xf0a35a) : rgb(0xa84a00)); }
 
 MonoScope::MonoScope() { ImGui::PushFont(monoFont); }
 MonoScope::~MonoScope() { ImGui::PopFont(); }

@@ -6,8 +6,8 @@
 #include <epoxy/gl.h>
 
 #define GLFW_INCLUDE_NONE
-#include <GLFW/glfw3.h>
 #include <backends/imgui_impl_opengl3.h>
+#include <GLFW/glfw3.h>
 #include <imgui.h>
 
 #include "verbs.h"
@@ -34,22 +34,35 @@ public:
         io.MousePos = {-1e6f, -1e6f};  // nowhere, until it moves
         io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
         io.ClipboardUserData = window;
-        io.SetClipboardTextFn = [](void* w, const char* text) { glfwSetClipboardString(static_cast<GLFWwindow*>(w), text); };
+        io.SetClipboardTextFn = [](void* w, const char* text) {
+            glfwSetClipboardString(static_cast<GLFWwindow*>(w), text);
+        };
         io.GetClipboardTextFn = [](void* w) { return glfwGetClipboardString(static_cast<GLFWwindow*>(w)); };
         struct Named {
             ImGuiKey imgui;
             int glfw;
         };
-        for (const Named& key : {Named{ImGuiKey_Tab, GLFW_KEY_TAB}, {ImGuiKey_LeftArrow, GLFW_KEY_LEFT},
-                                 {ImGuiKey_RightArrow, GLFW_KEY_RIGHT}, {ImGuiKey_UpArrow, GLFW_KEY_UP},
-                                 {ImGuiKey_DownArrow, GLFW_KEY_DOWN}, {ImGuiKey_PageUp, GLFW_KEY_PAGE_UP},
-                                 {ImGuiKey_PageDown, GLFW_KEY_PAGE_DOWN}, {ImGuiKey_Home, GLFW_KEY_HOME},
-                                 {ImGuiKey_End, GLFW_KEY_END}, {ImGuiKey_Delete, GLFW_KEY_DELETE},
-                                 {ImGuiKey_Backspace, GLFW_KEY_BACKSPACE}, {ImGuiKey_Space, GLFW_KEY_SPACE},
-                                 {ImGuiKey_Enter, GLFW_KEY_ENTER}, {ImGuiKey_Escape, GLFW_KEY_ESCAPE},
-                                 {ImGuiKey_KeyPadEnter, GLFW_KEY_KP_ENTER}, {ImGuiKey_A, GLFW_KEY_A},
-                                 {ImGuiKey_C, GLFW_KEY_C}, {ImGuiKey_V, GLFW_KEY_V}, {ImGuiKey_X, GLFW_KEY_X},
-                                 {ImGuiKey_Y, GLFW_KEY_Y}, {ImGuiKey_Z, GLFW_KEY_Z}})
+        for (const Named& key : {Named{ImGuiKey_Tab, GLFW_KEY_TAB},
+                                 {ImGuiKey_LeftArrow, GLFW_KEY_LEFT},
+                                 {ImGuiKey_RightArrow, GLFW_KEY_RIGHT},
+                                 {ImGuiKey_UpArrow, GLFW_KEY_UP},
+                                 {ImGuiKey_DownArrow, GLFW_KEY_DOWN},
+                                 {ImGuiKey_PageUp, GLFW_KEY_PAGE_UP},
+                                 {ImGuiKey_PageDown, GLFW_KEY_PAGE_DOWN},
+                                 {ImGuiKey_Home, GLFW_KEY_HOME},
+                                 {ImGuiKey_End, GLFW_KEY_END},
+                                 {ImGuiKey_Delete, GLFW_KEY_DELETE},
+                                 {ImGuiKey_Backspace, GLFW_KEY_BACKSPACE},
+                                 {ImGuiKey_Space, GLFW_KEY_SPACE},
+                                 {ImGuiKey_Enter, GLFW_KEY_ENTER},
+                                 {ImGuiKey_Escape, GLFW_KEY_ESCAPE},
+                                 {ImGuiKey_KeyPadEnter, GLFW_KEY_KP_ENTER},
+                                 {ImGuiKey_A, GLFW_KEY_A},
+                                 {ImGuiKey_C, GLFW_KEY_C},
+                                 {ImGuiKey_V, GLFW_KEY_V},
+                                 {ImGuiKey_X, GLFW_KEY_X},
+                                 {ImGuiKey_Y, GLFW_KEY_Y},
+                                 {ImGuiKey_Z, GLFW_KEY_Z}})
             io.KeyMap[key.imgui] = key.glfw;
         ImGui_ImplOpenGL3_Init("#version 450");
     }
@@ -109,7 +122,8 @@ Result<void> loop(Viewer& viewer, std::vector<Event>& events, std::optional<Scri
         for (const Event& event : now) feedImGui(event);
         for (const Event& event : now) viewer.handle(event);
         const auto time = std::chrono::steady_clock::now();
-        const double seconds = script && !script->realTime() ? kScriptedTurn : std::chrono::duration<double>(time - before).count();
+        const double seconds =
+            script && !script->realTime() ? kScriptedTurn : std::chrono::duration<double>(time - before).count();
         before = time;
         if (viewer.window.width() < 1 || viewer.window.height() < 1) continue;  // minimised
         const auto start = std::chrono::steady_clock::now();

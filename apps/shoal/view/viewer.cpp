@@ -145,8 +145,7 @@ std::vector<scene::Override> Viewer::pictureOverrides(bool windowSize) const {
         overrides.push_back({"render.width", std::to_string(viewport.width)});
     if (windowSize && viewport.height != render.height)
         overrides.push_back({"render.height", std::to_string(viewport.height)});
-    if (timeline.time != render.time)
-        overrides.push_back({"render.time", shoal::detail::showField(timeline.time)});
+    if (timeline.time != render.time) overrides.push_back({"render.time", shoal::detail::showField(timeline.time)});
     return overrides;
 }
 
@@ -168,8 +167,7 @@ void Viewer::draw() {
     const int before = picture.revision() + (comparison ? comparison->picture.revision() : 0);
     picture.pipeline().setTiming(timed);
     takeResult(picture.draw(wanted(picture)));
-    if (comparison && comparison->picture.hasScene())
-        takeResult(comparison->picture.draw(wanted(comparison->picture)));
+    if (comparison && comparison->picture.hasScene()) takeResult(comparison->picture.draw(wanted(comparison->picture)));
     if (inspector.active() && picture.complete())
         takeResult(inspector.take(window.device(), picture.pipeline(), picture.revision()));
     if (picture.revision() + (comparison ? comparison->picture.revision() : 0) == before) return;
@@ -185,7 +183,8 @@ void Viewer::draw() {
 bool Viewer::wantsFrame() const {
     const bool unfinished = picture.hasScene() && !picture.complete();
     const bool otherUnfinished = comparison && (!comparison->picture.hasScene() || !comparison->picture.complete());
-    return interacting() || unfinished || otherUnfinished || picture.loading() || noteSeconds_ > 0 || !keysDown_.empty();
+    return interacting() || unfinished || otherUnfinished || picture.loading() || noteSeconds_ > 0 ||
+           !keysDown_.empty();
 }
 
 void Viewer::applied(Effect effect) {
@@ -223,9 +222,9 @@ void Viewer::setValue(const std::string& key, const std::string& value) {
         const float given = radians(float(parsed->numbers[0]));
         const float elevation = key == "sun.elevationDeg" ? given : std::asin(std::clamp(d.y, -1.0f, 1.0f));
         const float azimuth = key == "sun.azimuthDeg" ? given : std::atan2(d.x, d.z);
-        return setValue("sun.toSun", shoal::detail::showField(Vec3{std::cos(elevation) * std::sin(azimuth),
-                                                                   std::sin(elevation),
-                                                                   std::cos(elevation) * std::cos(azimuth)}));
+        return setValue("sun.toSun",
+                        shoal::detail::showField(Vec3{std::cos(elevation) * std::sin(azimuth), std::sin(elevation),
+                                                      std::cos(elevation) * std::cos(azimuth)}));
     }
     const auto set = shownDocument().set(key, value);
     if (!set) return fail(set.error().message);
@@ -337,7 +336,8 @@ void Viewer::stopComparison() {
 }
 
 std::string Viewer::statusLine() const {
-    if (!picture.hasScene()) return picture.loading() ? "reading " + document.file().filename().string() + " ..." : "no picture";
+    if (!picture.hasScene())
+        return picture.loading() ? "reading " + document.file().filename().string() + " ..." : "no picture";
     char text[200];
     const int width = viewport.width, height = viewport.height;
     if (picture.shownScale() < 1 || interacting())

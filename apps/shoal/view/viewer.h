@@ -35,8 +35,8 @@ struct Area {
 struct Comparison {
     Document other;
     Picture picture;
-    float divider = 0.5f;    // of the viewport's width
-    bool editOther = true;   // which side the panels change
+    float divider = 0.5f;   // of the viewport's width
+    bool editOther = true;  // which side the panels change
 };
 
 // What one frame cost.
@@ -54,7 +54,7 @@ public:
     // One turn of the loop: input, time, drawing. `seconds`: since the turn before.
     void handle(const Event& event);
     void update(double seconds);
-    void draw();  // the viewport; panels are drawn by drawPanels
+    void draw();              // the viewport; panels are drawn by drawPanels
     bool wantsFrame() const;  // whether something changes without input
 
     void openFiles(const std::vector<std::filesystem::path>& files);

@@ -36,7 +36,8 @@ void showHelp(const FieldInfo& info) {
     }
     if (!info.unit.empty()) range += (range.empty() ? "in " : " ") + info.unit;
     if (!range.empty()) ImGui::TextDisabled("%s", range.c_str());
-    ImGui::TextDisabled("%s, default %s", info.key.c_str(), info.defaultValue.empty() ? "none" : info.defaultValue.c_str());
+    ImGui::TextDisabled("%s, default %s", info.key.c_str(),
+                        info.defaultValue.empty() ? "none" : info.defaultValue.c_str());
     if (info.kind == FieldInfo::Kind::number || info.kind == FieldInfo::Kind::integer)
         ImGui::TextDisabled("double-click to type, right-click to reset");
     ImGui::PopTextWrapPos();
@@ -85,16 +86,15 @@ bool editInteger(FieldInfo& info) {
     std::int64_t value = std::int64_t(info.numbers[0]);
     const std::int64_t low = std::int64_t(std::max(info.lowest, -2147483648.0)),
                        high = std::int64_t(std::min(info.highest, 4294967295.0));
-    const bool changed =
-        high - low <= 64 ? ImGui::SliderScalar("##value", ImGuiDataType_S64, &value, &low, &high, "%lld")
-                         : ImGui::DragScalar("##value", ImGuiDataType_S64, &value, 0.5f, &low, &high, "%lld");
+    const bool changed = high - low <= 64
+                             ? ImGui::SliderScalar("##value", ImGuiDataType_S64, &value, &low, &high, "%lld")
+                             : ImGui::DragScalar("##value", ImGuiDataType_S64, &value, 0.5f, &low, &high, "%lld");
     info.numbers[0] = double(std::clamp(value, low, high));
     return changed;
 }
 
 bool editText(FieldInfo& info) {
-    if (info.choices.empty())
-        return ImGui::InputText("##value", &info.text, ImGuiInputTextFlags_EnterReturnsTrue);
+    if (info.choices.empty()) return ImGui::InputText("##value", &info.text, ImGuiInputTextFlags_EnterReturnsTrue);
     bool changed = false;
     if (!ImGui::BeginCombo("##value", info.text.c_str())) return false;
     for (const std::string& choice : info.choices) {
@@ -171,7 +171,8 @@ void drawField(const FieldInfo& shown, const FieldActions& actions) {
         }
         if (actions.places) notePlace(*actions.places, "reset:" + info.key);
         if (ImGui::IsItemHovered())
-            ImGui::SetTooltip("%s", changedByHand ? "back to what the file says" : ("default: " + info.defaultValue).c_str());
+            ImGui::SetTooltip("%s",
+                              changedByHand ? "back to what the file says" : ("default: " + info.defaultValue).c_str());
     }
     ImGui::PopID();
 }

@@ -1,4 +1,5 @@
-// One widget a parameter: slider by its range, a word list, a check box; tooltip, double-click to type, back to default.
+// One widget a parameter: slider by its range, a word list, a check box; tooltip, double-click to type, back to
+// default.
 #pragma once
 
 #include <functional>
@@ -19,8 +20,8 @@ void notePlace(WidgetPlaces& places, const std::string& name);
 
 struct FieldActions {
     std::function<void(const std::string& key, const std::string& value)> set;
-    std::function<void(const std::string& key)> reset;             // to what the file says
-    std::function<bool(const std::string& key)> isChanged;         // from what the file says
+    std::function<void(const std::string& key)> reset;      // to what the file says
+    std::function<bool(const std::string& key)> isChanged;  // from what the file says
     std::function<void()> gestureEnded;
     WidgetPlaces* places = nullptr;
 };

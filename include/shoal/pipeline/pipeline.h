@@ -33,7 +33,7 @@ struct FrameRequest {
     // with sampleBegin > 0 goes on where the call before ended and must differ from it in nothing else; after the last
     // one the picture has the bits of a single call.
     int sampleBegin = 0, sampleEnd = 0;
-    bool draft = false;  // quicker: leaves out detail of a pixel or two (setDraftsWanted comes first)
+    bool draft = false;      // quicker: leaves out detail of a pixel or two (setDraftsWanted comes first)
     std::uint32_t seed = 1;  // shifts where samples fall in the pixel and the noise of ambient occlusion
     std::optional<light::Camera> camera = {};  // instead of the scene's
 };
@@ -60,9 +60,9 @@ public:
     // Takes over a scene: uploads models, prefilters the environment, binds [shadows], [lighting], [post]. Replaces the
     // scene before; that one stays when this fails.
     Result<void> setScene(const scene::Scene& scene, scene::Content content);
-    // Takes over what differs in lights, camera, [render], [shadows], [lighting], [post] and the techniques' tables; the
-    // models, shapes and camera poses stay, so they must be the same. Much faster than setScene. The scene before stays
-    // when this fails.
+    // Takes over what differs in lights, camera, [render], [shadows], [lighting], [post] and the techniques' tables;
+    // the models, shapes and camera poses stay, so they must be the same. Much faster than setScene. The scene before
+    // stays when this fails.
     Result<void> updateScene(const scene::Scene& scene);
     // Opens a scene or model file, reads its content and sets it.
     Result<void> open(const std::filesystem::path& file, std::span<const scene::Override> overrides = {});

@@ -44,7 +44,8 @@ TEST(SceneWrite, AValueIsChangedInItsPlace) {
 }
 
 TEST(SceneWrite, NewKeysGoIntoTheirTables) {
-    const std::string text = changed({{"shape[0].width", "2"}, {"post.exposureEv", "1"}, {"shape[1].tint", "[1, 0.5, 0]"}});
+    const std::string text =
+        changed({{"shape[0].width", "2"}, {"post.exposureEv", "1"}, {"shape[1].tint", "[1, 0.5, 0]"}});
     EXPECT_NE(text.find("name = \"a # b\"\nwidth = 2\n"), std::string::npos) << text;
     EXPECT_NE(text.find("kind = \"plane\"\ntint = [1, 0.5, 0]\n"), std::string::npos) << text;
     EXPECT_NE(text.find("[post]\nexposureEv = 1\n"), std::string::npos) << text;
