@@ -84,6 +84,10 @@ TEST_F(ViewWindow, WhatIsSavedDrawsWhatWasSeen) {
 screenshot before.png
 drag left 150 200 190 215 6
 scroll 1
+click filter
+type exposureEv
+key Enter
+wait 2
 slide post.exposureEv 0.5 0.56
 wait full
 screenshot after.png
@@ -235,6 +239,7 @@ key V
 wait full
 print one
 buffer depth
+key T
 wait full
 move 100 200
 wait 2
@@ -251,7 +256,7 @@ quit
     // Right of the divider is two stops brighter.
     const auto split = io::readByteImage(folder / "split.png");
     ASSERT_TRUE(split) << split.error().message;
-    const int width = int(valueOf(run, "start", "picture")), y = 300;
+    const int width = int(valueOf(run, "start", "picture")), y = 240;
     const auto brightness = [&](int x) {
         const std::uint8_t* p =
             split->pixels.data() + (std::size_t(y) * std::size_t(split->width) + std::size_t(x)) * 4;

@@ -58,7 +58,7 @@ void Viewer::handle(const Event& event) {
         case Event::Kind::key:
             if (!event.pressed)
                 keysDown_.erase(event.code);
-            else if (!io.WantTextInput)
+            else if (!io.WantTextInput && !(io.NavVisible && event.code == GLFW_KEY_SPACE))  // Space presses a button
                 press(event.code, event.mods);
             break;
         case Event::Kind::focus:

@@ -250,7 +250,8 @@ Result<void> Script::start(Viewer& viewer, const std::vector<std::string>& words
     } else if (verb == "window") {
         later([this, rest](Viewer&, auto&) { grab_ = rest; });
     } else if (verb == "buffer") {
-        viewer.inspector.choose(rest);
+        SHOAL_TRY_ASSIGN(const std::vector<std::string> names, pipeline::parseAovList(rest == "picture" ? "" : rest));
+        viewer.inspector.choose(names.size() == 1 ? names[0] : "");
     } else if (verb == "command") {
         std::printf("command: %s\n", viewer.command().c_str());
     } else if (verb == "print") {

@@ -89,7 +89,7 @@ void drawTurn(Viewer& viewer, double seconds) {
     io.DeltaTime = float(std::max(seconds, 1e-4));
     if (std::exchange(viewer.styleChanged, false)) {
         applyStyle(viewer.settings.theme, viewer.uiScale);
-        ImGui_ImplOpenGL3_DestroyFontsTexture();
+        ImGui_ImplOpenGL3_DestroyDeviceObjects();  // NewFrame makes them again, with the new letters
     }
     ImGui_ImplOpenGL3_NewFrame();
     ImGui::NewFrame();

@@ -45,8 +45,15 @@ void Viewer::update(double seconds) {
     const bool wasShown = picture.hasScene();
     if (auto taken = picture.takeLoaded(); !taken) {
         fail(taken.error().message);
+        // What cannot be shown is not open either.
+        if (before_) {
+            document = *std::exchange(before_, {});
+            timeline.time = documentTime_;
+            freshDocument_ = false;
+        }
     } else if (*taken) {
         error_.clear();
+        before_.reset();
         if (freshDocument_) goToSceneCamera();
         freshDocument_ = false;
         if (!wasShown) movingSeconds_ = 0;
@@ -241,14 +248,33 @@ void Viewer::resetValue(const std::string& key) {
     applied(effectOf(key));
 }
 
+// The least that shows what became of `before`.
+void Viewer::applyDifference(const std::vector<scene::Override>& before) {
+    const std::vector<scene::Override>& after = shownDocument().overrides();
+    Effect most = Effect::none;
+    const auto count = [&](const std::vector<scene::Override>& some, const std::vector<scene::Override>& others) {
+        for (const scene::Override& change : some) {
+            const bool same = std::any_of(others.begin(), others.end(), [&](const scene::Override& other) {
+                return other.key == change.key && other.value == change.value;
+            });
+            if (!same) most = std::max(most, effectOf(change.key));
+        }
+    };
+    count(before, after);
+    count(after, before);
+    applied(most);
+}
+
 void Viewer::undo() {
+    const std::vector<scene::Override> before = shownDocument().overrides();
     shownDocument().undo();
-    applied(Effect::reload);
+    applyDifference(before);
 }
 
 void Viewer::redo() {
+    const std::vector<scene::Override> before = shownDocument().overrides();
     shownDocument().redo();
-    applied(Effect::reload);
+    applyDifference(before);
 }
 
 void Viewer::openFiles(const std::vector<std::filesystem::path>& files) {
@@ -256,9 +282,9 @@ void Viewer::openFiles(const std::vector<std::filesystem::path>& files) {
     // A picture of an environment lights what is open already.
     const auto format = io::imageFormatOf(files[0]);
     if (files.size() == 1 && (format == io::ImageFormat::hdr || format == io::ImageFormat::exr)) {
-        const auto set = document.set("environment.kind", "file");
         const auto file = std::filesystem::absolute(files[0]).lexically_normal().string();
-        const auto named = set ? document.set("environment.file", file) : set;
+        const auto set = document.set("environment.file", file);  // the kind asks for one
+        const auto named = set ? document.set("environment.kind", "file") : set;
         if (!named) return fail(named.error().message);
         if (auto updated = picture.update(document.scene()); !updated) {
             document.undo();
@@ -271,6 +297,7 @@ void Viewer::openFiles(const std::vector<std::filesystem::path>& files) {
     if (!opened) return fail(opened.error().message);
     stopComparison();
     error_.clear();
+    if (!before_ && picture.hasScene()) before_ = document, documentTime_ = timeline.time;
     document = std::move(*opened);
     freshDocument_ = true;
     timeline = {};

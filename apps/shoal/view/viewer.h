@@ -117,6 +117,9 @@ private:
     std::set<int> keysDown_;
     double movingSeconds_ = 0, watchSeconds_ = 0;
     bool freshDocument_ = true;
+    float documentTime_ = 0;
+    std::optional<Document> before_;  // what was open before `document`, until that is shown
+    void applyDifference(const std::vector<scene::Override>& before);
 };
 
 }  // namespace shoal::viewer
