@@ -102,6 +102,7 @@ Result<void> MethodPair::loadOne(Method method, const std::string& scene, const 
     pipeline::FrameRequest& request = requests_[index(method)];
     request = pipeline::requestFor(pipeline(method).scene().render);
     request.antialiasing = "none";
+    if (sizes_[index(method)].x > 0) setSize(method, sizes_[index(method)].x, sizes_[index(method)].y);
     return {};
 }
 
@@ -112,6 +113,7 @@ void MethodPair::setSize(int width, int height) {
 void MethodPair::setSize(Method method, int width, int height) {
     pipeline::FrameRequest& request = requests_[index(method)];
     request.width = width, request.height = height;
+    sizes_[index(method)] = {width, height};
 }
 
 pipeline::FrameRequest MethodPair::request(Method method, int frame) {

@@ -38,7 +38,7 @@ public:
     // Loads tests/scenes/<scene>.toml twice. Any two settings may stand beside each other, not the two methods alone.
     Result<void> load(const std::string& scene, const Overrides& shoal, const Overrides& paper);
     Result<void> loadOne(Method method, const std::string& scene, const Overrides& overrides);
-    void setSize(int width, int height);  // of both
+    void setSize(int width, int height);  // of both; outlives a load
     void setSize(Method method, int width, int height);
     // Draws a frame and times its passes. The eye moves with the index, as in use: what follows the eye is drawn anew.
     Result<MethodTimes> timed(Method method, int index);
@@ -60,6 +60,7 @@ private:
     std::unique_ptr<gl::Device> device_;
     std::unique_ptr<pipeline::Pipeline> pipelines_[2];
     pipeline::FrameRequest requests_[2];
+    IVec2 sizes_[2];  // asked for; x 0: the scene's
 };
 
 }  // namespace shoal::bench

@@ -41,6 +41,7 @@ Likeness likenessOf(const Image& a, const Image& b, const Image& depth, const Im
                 product += blockA * blockB / weight;
         }
     Likeness like;
+    SHOAL_ASSERT_MSG(a.width == b.width && a.height == b.height, "the two methods drew pictures of different size");
     like.meanA = sumA / weights, like.meanB = sumB / weights;
     const double varianceA = squareA / weights - like.meanA * like.meanA,
                  varianceB = squareB / weights - like.meanB * like.meanB;
@@ -66,7 +67,7 @@ Result<std::string> sameWork(MethodPair& pair, int photons, int godrayPhotons) {
     SHOAL_TRY(pair.loadOne(Method::paper, "water_speed", gained));
     SHOAL_TRY_ASSIGN(const Image theirs, pair.draw(Method::paper, "caustics"));
     const Likeness like = likenessOf(ours, theirs, depth, id);
-    if (std::abs(like.meanB / like.meanA - 1) > 0.03 || like.correlation < 0.3)
+    if (!(std::abs(like.meanB / like.meanA - 1) <= 0.03) || !(like.correlation >= 0.3))
         return internalError("the two methods do not light the same floor");
     char text[200];
     std::snprintf(text, sizeof text,
@@ -86,7 +87,6 @@ Result<std::vector<Row>> speedup(const Settings& settings, const Work& work) {
                         paperOverrides(work.photons, work.godrayPhotons)));
     pair.setSize(work.width, work.height);
     SHOAL_TRY_ASSIGN(const std::string check, sameWork(pair, work.photons, work.godrayPhotons));
-    pair.setSize(work.width, work.height);
     SHOAL_TRY_ASSIGN(const MethodPair::Both both, pair.inTurns(settings.repetitions));
     note("  %s shoal, ms (%s): %s; light depth apart %.1f", work.id, gl::FrameTimer::method(pair.device()),
          passText(both.shoal).c_str(), both.shoal.lightDepth);

@@ -156,5 +156,91 @@ TEST_F(WaterPhotons, LookupGivesTheMap) {
     EXPECT_LT(compareMaps(rig.irradiance(), rig.map()).rmse, 0.001);
 }
 
+// A lamp over level water: rings of its light, intensity 1 W/sr, land on rings of the floor.
+TEST_F(WaterPhotons, LampOverLevelWater) {
+    const water::WaveField waves = levelWater();
+    FloorSetup setup;
+    setup.waves = &waves, setup.center = {0, 0};
+    const double height = 3, depth = double(setup.depth), index = water::kWaterIndex;
+    setup.lamps = {{.position = {0, float(height), 0}, .intensity = {1, 1, 1}}};
+    FloorRig rig(device());
+    rig.prepare(setup);
+    ASSERT_EQ(rig.views().slots().size(), 1u);
+    rig.trace();
+    rig.lookUp();
+    const std::vector<float> seen = rig.irradiance();
+    const auto landing = [&](double incidence) {
+        return height * std::tan(incidence) + depth * std::tan(std::asin(std::sin(incidence) / index));
+    };
+    for (const double incidence : {0.05, 0.15, 0.25, 0.35}) {
+        const double step = 1e-5, at = landing(incidence);
+        const double slope = (landing(incidence + step) - landing(incidence - step)) / (2 * step);
+        const double exact =
+            water::fresnelTransmittance(std::cos(incidence), index) * std::sin(incidence) / (at * slope);
+        const int i = int((at + 2) * 128), j = 256;
+        const double x = (i + 0.5) / 128 - 2, z = 0.5 / 128;
+        const float value = seen[std::size_t(j) * 512 + std::size_t(i)];
+        EXPECT_NEAR(double(value) / exact, 1, 0.01 + 2 * std::abs(std::hypot(x, z) / at - 1)) << "X " << at;
+    }
+}
+
+// What the surface throws up at a ceiling and what goes on into the water are all of the light.
+TEST_F(WaterPhotons, ReflectedAndRefractedLightIsAllOfIt) {
+    constexpr double kTarget = 0.01;
+    for (const double zenith : {0.0, 30.0, 60.0}) {
+        const water::WaveField waves = patchP6();
+        FloorSetup setup;
+        setup.waves = &waves, setup.ceiling = 1, setup.zenithDeg = float(zenith), setup.photons = 640000;
+        FloorRig rig(device());
+        rig.prepare(setup);
+        ASSERT_EQ(rig.views().slots().size(), 2u);
+        ASSERT_TRUE(rig.slot(1).reflected);
+        rig.trace();
+        const auto mean = [&](int slot) {
+            // Of the middle of the square, whole periods of the waves where it is large enough.
+            const std::vector<float> map = rig.map(slot);
+            const int n = rig.resolution();
+            const int texels = std::min(n, int(std::lround(4 / rig.slot(slot).texel)));
+            const int first = (n - texels) / 2;
+            double sum = 0;
+            for (int j = first; j < first + texels; ++j)
+                for (int i = first; i < first + texels; ++i)
+                    sum += double(map[std::size_t(j) * std::size_t(n) + std::size_t(i)]);
+            return sum / (double(texels) * texels);
+        };
+        EXPECT_NEAR((mean(0) + mean(1)) / std::cos(zenith * kPiD / 180), 1, kTarget) << zenith << " deg";
+        // The eye sees the ceiling: it gets what the second map holds, the floor's light is not added.
+        rig.lookUp();
+        const std::vector<float> seen = rig.irradiance();
+        double sum = 0;
+        for (const float value : seen) sum += double(value);
+        EXPECT_NEAR(sum / double(seen.size()) / mean(1), 1, 0.03) << zenith << " deg";
+    }
+}
+
+// Light where it has no business to be defined: nothing breaks.
+TEST_F(WaterPhotons, OddLightsGiveFiniteLight) {
+    const water::WaveField waves = patchP6();
+    FloorRig rig(device());
+    for (const float zenith : {80.0f, 89.0f, 89.9f, 90.0f, 120.0f, 180.0f}) {
+        FloorSetup setup;
+        setup.waves = &waves, setup.zenithDeg = zenith, setup.photons = 20000;
+        rig.prepare(setup);
+        rig.trace();
+        rig.lookUp();
+        for (const float value : rig.irradiance()) ASSERT_TRUE(std::isfinite(value) && value >= 0) << zenith;
+    }
+    for (const float height : {-1.0f, 0.0f, 1e-4f, 0.06f, 0.5f, 1000.0f}) {
+        FloorSetup setup;
+        setup.waves = &waves, setup.photons = 20000;
+        setup.lamps = {{.position = {2, height, 2}, .intensity = {1, 1, 1}},
+                       {.kind = light::PunctualLight::Kind::spot, .position = {1, height, 2}, .range = 3}};
+        rig.prepare(setup);
+        rig.trace();
+        rig.lookUp();
+        for (const float value : rig.irradiance()) ASSERT_TRUE(std::isfinite(value) && value >= 0) << height;
+    }
+}
+
 }  // namespace
 }  // namespace shoal::test

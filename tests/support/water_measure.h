@@ -88,10 +88,11 @@ public:
         views_.prepare(context_, params, body_, lights_, scene);
         for (const frame::NeededView& view : views_.neededViews()) clearTo(view, heightIn(view));
 
-        const float depth = kEyeY + setup.depth;
+        // The eye sees the floor; where there is a ceiling, that one from above, as if it were lit from below.
+        const float depth = setup.ceiling > 0 ? kEyeY - setup.ceiling : kEyeY + setup.depth;
         viewDepth_.clear(GL_RED, GL_FLOAT, &depth);
-        const std::uint16_t up[2] = {32768, 65535};
-        normal_.clear(GL_RG, GL_UNSIGNED_SHORT, up);
+        const std::uint16_t up[2] = {32768, 65535}, down[2] = {32768, 0};
+        normal_.clear(GL_RG, GL_UNSIGNED_SHORT, setup.ceiling > 0 ? down : up);
     }
 
     // Deposits (and resolves) the photons.
@@ -106,9 +107,9 @@ public:
     // texel.
     std::vector<float> map(int slot = 0, int layer = 0) const {
         const gl::TextureView maps = photons_.maps();
-        std::vector<float> all(std::size_t(maps.width) * std::size_t(maps.height));
+        std::vector<float> all(std::size_t(maps.width) * std::size_t(maps.width));
         glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
-        glGetTextureSubImage(maps.name, 0, 0, 0, 2 * slot + layer, maps.width, maps.height, 1, GL_RED, GL_FLOAT,
+        glGetTextureSubImage(maps.name, 0, 0, 0, 2 * slot + layer, maps.width, maps.width, 1, GL_RED, GL_FLOAT,
                              GLsizei(all.size() * 4), all.data());
         return all;
     }

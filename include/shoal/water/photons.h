@@ -58,8 +58,10 @@ public:
     void resolve(const frame::Context& context, const Body& body, const BodyLights& lights, const LightViews& views,
                  const ReceiverInputs& inputs, const IrradianceOutputs& outputs);
 
-    // R32F array, two layers a slot (2 slot + layer): irradiance on a level plane in units of the light's irradiance on
-    // a plane facing it (lamps: of 1 W/m2), dimmed by the channel that is dimmed least.
+    // RG32F array, two layers a slot (2 slot + layer). r: irradiance on a level plane in units of the light's
+    // irradiance on a plane facing it (lamps: of that right below them on the level), dimmed by the channel that is
+    // dimmed least. g: world y of what has it (not kept for a second layer that is dark). A map is as wide as high;
+    // above it, in rows from its width on, lie its mips from left to right.
     gl::TextureView maps() const;
     frame::Stats stats() const;
 

@@ -38,7 +38,8 @@ struct WaterPaths {
     gl::TextureView surfaceDepth;
     gl::TextureView surfaceNormal;  // RG16 octahedral, world, upwards
     // RGBA16F: xy from the pixel to the place in the picture (of its size) where the opaque surface at the end of the
-    // path is seen (not 0 where the ray is bent), z: metres in water, w: 1 where the path begins at the eye.
+    // path is seen (not 0 where the ray is bent), z: metres in water, w: 1 where the path begins at the eye, down to -1
+    // where a bent ray ends beyond the picture's border or behind something: xy and z are guesses there.
     gl::TextureView path;
 };
 

@@ -32,6 +32,8 @@ namespace {
 
 using State = LightViews::State;
 
+constexpr float kTravelSteps = 4, kTravelPasses = 2;  // of photonTravel (photon.io.glsl)
+
 gl::Texture makeDepth(gl::Device& device, int resolution, int layers, const char* label) {
     gl::TextureDesc desc;
     desc.target = GL_TEXTURE_2D_ARRAY;
@@ -131,7 +133,7 @@ void LightViews::prepare(const frame::Context& context, const LightViewParams& p
     s.views.clear();
     s.airDrawn = false;
     LightSpaceBlock block{};
-    block.counts = {float(fits.size()), float(s.setup.resolution), 0, 0};
+    block.counts = {float(fits.size()), float(s.setup.resolution), kTravelSteps, kTravelPasses};
     for (std::size_t i = 0; i < fits.size(); ++i) {
         const SlotFit& fit = fits[i];
         const int index = int(i);

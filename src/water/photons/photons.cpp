@@ -26,9 +26,11 @@ struct Photons::State {
     gl::Device* device = nullptr;
     PhotonSetup setup;
     const gl::Program* deposit[kVariants] = {};
-    const gl::Program *resolve = nullptr, *disc = nullptr, *mips = nullptr, *layers = nullptr;
-    // Looking up: all pixels, then listed tiles; the sun alone or lamps too; without normals, with.
-    const gl::Program* lookup[2][2][2] = {};
+    const gl::Program *resolve[2] = {}, *mips[2] = {};  // into maps, into the sharp map
+    const gl::Program *disc = nullptr, *layers = nullptr;
+    // Looking up: all pixels, listed tiles deep down, those near the waterline; the sun alone or lamps too; without
+    // normals, with.
+    const gl::Program* lookup[3][2][2] = {};
     gl::Buffer tiles;
     gl::Buffer deposits;  // of one slot at a time
     gl::Buffer commands;  // work groups of the passes after the deposit, for one layer or two
@@ -55,6 +57,10 @@ constexpr int kLargestFineMap = 1024;  // texels a side of maps that may be depo
 // 1024^2 bins 2 %) where one map is all there is; where maps follow each other their steps are larger than that.
 constexpr double kSeenDisc = 0.6, kWideDisc = 2;
 constexpr double kReflectedShare = 0.25;
+constexpr float kBlends = 2;  // maps that a lookup blends at most
+
+// Texels in height of a map with its mips in a row above it.
+int shelved(int side) { return side + side / 2; }
 
 Result<void> makePrograms(gl::Device& device, State& s) {
     const std::vector<std::pair<std::string, std::string>> variants[State::kVariants] = {
@@ -67,16 +73,22 @@ Result<void> makePrograms(gl::Device& device, State& s) {
         SHOAL_TRY_ASSIGN(s.deposit[i],
                          device.programs().get({{"water/photon_deposit.comp"}, variants[i], "photon deposit"}));
     }
-    SHOAL_TRY_ASSIGN(s.resolve, device.programs().get({{"water/caustic_resolve.comp"}, {}, "caustic resolve"}));
     SHOAL_TRY_ASSIGN(s.disc, device.programs().get({{"water/caustic_disc.comp"}, {}, "caustic disc"}));
     SHOAL_TRY_ASSIGN(s.layers, device.programs().get({{"water/caustic_layers.comp"}, {}, "caustic layers"}));
-    SHOAL_TRY_ASSIGN(s.mips, device.programs().get({{"water/caustic_mips.comp"}, {}, "caustic mips"}));
+    for (int sharp = 0; sharp < 2; ++sharp) {
+        std::vector<std::pair<std::string, std::string>> defines;
+        if (sharp) defines.push_back({"SHARP", ""});
+        SHOAL_TRY_ASSIGN(s.resolve[sharp],
+                         device.programs().get({{"water/caustic_resolve.comp"}, defines, "caustic resolve"}));
+        SHOAL_TRY_ASSIGN(s.mips[sharp], device.programs().get({{"water/caustic_mips.comp"}, defines, "caustic mips"}));
+    }
     const auto lookup = [&](std::vector<std::pair<std::string, std::string>> defines) {
         return device.programs().get({{"water/caustic_lookup.comp"}, std::move(defines), "caustic lookup"});
     };
-    for (int i = 0; i < 8; ++i) {
+    for (int i = 0; i < 12; ++i) {
         std::vector<std::pair<std::string, std::string>> defines;
-        if (i & 4) defines.push_back({"TILES", ""});
+        if (i >= 4) defines.push_back({"TILES", ""});
+        if (i >= 8) defines.push_back({"WATERLINE", ""});
         if (!(i & 2)) defines.push_back({"NO_LAMPS", ""});
         if (!(i & 1)) defines.push_back({"NO_NORMALS", ""});
         SHOAL_TRY_ASSIGN(s.lookup[i >> 2][i >> 1 & 1][i & 1], lookup(defines));
@@ -131,7 +143,7 @@ void depositSlot(State& s, const frame::Context& context, int index, const Light
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     s.photonCount += std::int64_t(lattice.countX) * lattice.countZ;
 
-    s.resolve->set(1, float(1 / units));
+    for (const gl::Program* resolve : s.resolve) resolve->set(1, float(1 / units));
 }
 
 // The passes after the deposit, in order: each covers `side` texels a side of one layer or two.
@@ -155,8 +167,8 @@ public:
         state_.layers->dispatch(1);
         glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, state_.commands.name());
         for (std::size_t i = 0; i < count_; ++i) {
-            glMemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
-                            GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
+            glMemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
+                            GL_SHADER_STORAGE_BARRIER_BIT);
             passes_[i].bind();
             passes_[i].program->use();
             glDispatchComputeIndirect(GLintptr(3 * sizeof(std::uint32_t) * i));
@@ -175,13 +187,11 @@ private:
     std::array<std::uint32_t, 3 * kMostPasses> words_{};
 };
 
-void addMips(State& s, LayerPasses& passes, const gl::Texture& texture, int firstLayer, int side, int levels) {
+void addMips(State& s, LayerPasses& passes, bool sharp, int firstLayer, int side, int levels) {
     for (int level = 1; level < levels; ++level)
-        passes.add(*s.mips, side >> level, [&s, &texture, firstLayer, side, level] {
-            gl::bindImage(0, texture, GL_READ_ONLY, level - 1);
-            gl::bindImage(1, texture, GL_WRITE_ONLY, level);
-            s.mips->set(0, firstLayer);
-            s.mips->set(1, side >> level);
+        passes.add(*s.mips[sharp], side >> level, [&s, sharp, firstLayer, side, level] {
+            gl::bindImage(0, sharp ? s.sharp : s.maps, GL_READ_WRITE);
+            glProgramUniform4i(s.mips[sharp]->name(), 0, firstLayer, side, side >> level, 0);
         });
 }
 
@@ -194,18 +204,17 @@ void resolveSlot(State& s, const frame::Context& context, int index, double disc
     const int resolution = s.setup.resolution, side = resolution * fine;
     const bool blurs = disc >= kSeenDisc;
     // The second layer is dark unless a photon met it.
-    const float dark = 0;
-    for (int level = 0; level < s.mipLevels; ++level)
-        glClearTexSubImage(s.maps.name(), level, 0, 0, 2 * index + 1, resolution >> level, resolution >> level, 1,
-                           GL_RED, GL_FLOAT, &dark);
+    const float dark[2] = {0, 0};
+    glClearTexSubImage(s.maps.name(), 0, 0, 0, 2 * index + 1, resolution, shelved(resolution), 1, GL_RG, GL_FLOAT,
+                       dark);
     LayerPasses passes(s, side);
-    passes.add(*s.resolve, side, [&] {
+    passes.add(*s.resolve[blurs], side, [&] {
         gl::bindImage(0, blurs ? s.sharp : s.maps, GL_WRITE_ONLY);
-        glProgramUniform2i(s.resolve->name(), 0, side, blurs ? 0 : 2 * index);
+        glProgramUniform2i(s.resolve[blurs]->name(), 0, side, index);
     });
     if (blurs) {
         const int levels = levelsFor(disc * fine);
-        addMips(s, passes, s.sharp, 0, side, levels);
+        addMips(s, passes, true, 0, side, levels);
         passes.add(*s.disc, resolution, [&s, resolution, fine, index, levels] {
             gl::bindTexture(0, s.sharp);
             glBindSampler(0, 0);
@@ -213,7 +222,7 @@ void resolveSlot(State& s, const frame::Context& context, int index, double disc
             glProgramUniform4i(s.disc->name(), 0, resolution, fine, index, levels);
         });
     }
-    addMips(s, passes, s.maps, 2 * index, resolution, s.mipLevels);
+    addMips(s, passes, false, 2 * index, resolution, s.mipLevels);
     passes.run();
 }
 
@@ -263,18 +272,16 @@ Result<Photons> Photons::create(gl::Device& device, const PhotonSetup& setup) {
     while (s.mipLevels < kMostMipLevels && setup.resolution % (1 << s.mipLevels) == 0) ++s.mipLevels;
     gl::TextureDesc desc;
     desc.target = GL_TEXTURE_2D_ARRAY;
-    desc.format = GL_R32F;
-    desc.width = desc.height = setup.resolution;
+    desc.format = GL_RG32F;
+    desc.width = setup.resolution, desc.height = shelved(setup.resolution);
     desc.layers = 2 * setup.maxSlots;
-    desc.levels = s.mipLevels;
-    desc.minFilter = GL_NEAREST_MIPMAP_NEAREST;
     desc.label = "caustic maps";
     s.maps = gl::Texture::create(device, desc);
     s.mostFine = setup.resolution <= kLargestFineMap ? 2 : 1;
     const std::size_t side = std::size_t(setup.resolution) * std::size_t(s.mostFine);
-    desc.width = desc.height = int(side);
+    desc.format = GL_R32F;
+    desc.width = int(side), desc.height = shelved(int(side));
     desc.layers = 2;
-    desc.levels = kSharpLevels;
     desc.label = "caustics before blur";
     s.sharp = gl::Texture::create(device, desc);
     s.deposits = gl::Buffer::create(device, (2 * side * side + 1) * sizeof(std::uint32_t), "photon deposits");
@@ -317,7 +324,7 @@ void Photons::resolve(const frame::Context& context, const Body& body, const Bod
     s.waterBlock.write(makeWaterBlock(body, lights));
     s.waterBlock.bindUniform(SHOAL_BLOCK_WATER);
     CausticBlock block = viewRays(context);
-    block.maps = {float(s.mipLevels), s.sunHasSlot ? 1.0f : 0.0f, 0, 0};
+    block.maps = {float(s.mipLevels), s.sunHasSlot ? 1.0f : 0.0f, kBlends, 0};
     s.causticBlock.write(block);
     s.causticBlock.bindUniform(SHOAL_BLOCK_WATER_PASS);
     body.gpuWaves->bind();
@@ -331,24 +338,25 @@ void Photons::resolve(const frame::Context& context, const Body& body, const Bod
     gl::bindImage(1, outputs.ambient ? outputs.ambient : outputs.direct, GL_WRITE_ONLY);
     const bool lamps =
         std::any_of(views.slots().begin(), views.slots().end(), [](const LightSlot& slot) { return slot.light >= 0; });
-    const gl::Program &all = *s.lookup[0][lamps][normals], &listed = *s.lookup[1][lamps][normals];
+    const gl::Program& all = *s.lookup[0][lamps][normals];
     const int tilesX = (context.view.width + all.localSize(0) - 1) / all.localSize(0);
     const int tilesY = (context.view.height + all.localSize(1) - 1) / all.localSize(1);
-    const std::size_t bytes = (4 + std::size_t(tilesX) * std::size_t(tilesY)) * sizeof(std::uint32_t);
+    const std::uint32_t none[8] = {0, 1, 1, 0, 0, 1, 1, 0};
+    const std::size_t bytes = sizeof none + std::size_t(tilesX) * std::size_t(tilesY) * sizeof(std::uint32_t);
     if (s.tiles.bytes() < bytes) s.tiles = gl::Buffer::create(*s.device, bytes, "caustic tiles");
-    const std::uint32_t none[4] = {0, 1, 1, 0};
     s.tiles.write(0, std::as_bytes(std::span(none)));
     s.tiles.bindStorage(SHOAL_STORAGE_WATER);
     all.set(0, outputs.ambient ? 1 : 0);
     all.dispatch(context.view.width, context.view.height);
-    if (views.airDrawn()) {
-        glMemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+    glMemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, s.tiles.name());
+    for (const int list : {2, 1}) {
+        const gl::Program& listed = *s.lookup[list][lamps][normals];
         listed.set(0, outputs.ambient ? 1 : 0);
         listed.use();
-        glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, s.tiles.name());
-        glDispatchComputeIndirect(0);
-        glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
+        glDispatchComputeIndirect(list == 2 ? 0 : 4 * sizeof(std::uint32_t));
     }
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT);
 }
 
@@ -358,11 +366,8 @@ frame::Stats Photons::stats() const {
     const State& s = *state_;
     frame::Stats stats;
     stats.bytes = std::int64_t(s.deposits.bytes());
-    for (const gl::Texture* texture : {&s.maps, &s.sharp})
-        for (int level = 0; level < texture->view().levels; ++level) {
-            const std::int64_t side = texture->width() >> level;
-            stats.bytes += side * side * texture->view().layers * std::int64_t(sizeof(float));
-        }
+    for (const gl::Texture* texture : {&s.maps, &s.sharp, &s.maps})  // two numbers a texel of the maps
+        stats.bytes += std::int64_t(sizeof(float)) * texture->width() * texture->height() * texture->view().layers;
     stats.counts = {{"photons", s.photonCount}};
     return stats;
 }

@@ -131,7 +131,7 @@ std::vector<Square> sunSquares(const light::View& eye, const Side& side, const B
     const SightRay corner = sightRay(eye, 1, 1), axis = sightRay(eye, 0, 0);
     const double tangent = double(length(corner.direction - axis.direction));
     const double to = std::min(distance, steppedUp(seen.farthest));
-    const double from = std::clamp(powerBelow(seen.nearest), to / 64, to);
+    const double from = std::clamp(powerBelow(seen.nearest), to / 16, to);
     const double whole = powerAbove(scene.side);
     std::vector<Square> squares;
     for (int k = 0; k < cascades; ++k) {

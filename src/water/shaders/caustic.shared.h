@@ -18,7 +18,7 @@ SHOAL_CAUSTIC_BLOCK_BEGIN {
     vec4 origin, originX, originY;
     vec4 ray, rayX, rayY;
     vec4 size;  // x, y: pixels; z: metres a pixel at view depth 1 (perspective), w: at any depth (orthographic)
-    vec4 maps;  // x: mip levels of the maps, y: 1 where the sun has a slot
+    vec4 maps;  // x: mip levels of the maps, y: 1 where the sun has a slot, z: maps that a lookup blends at most
 }
 #ifndef __cplusplus
 causticBlock

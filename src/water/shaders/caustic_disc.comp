@@ -7,7 +7,7 @@
 layout(local_size_x = 16, local_size_y = 8) in;
 
 layout(binding = 0) uniform sampler2DArray sharpMap;   // two layers
-layout(binding = 0, r32f) uniform writeonly image2DArray maps;
+layout(binding = 0, rg32f) uniform writeonly image2DArray maps;
 layout(location = 0) uniform ivec4 place;   // texels a side of the map; sharp texels a side of its texel; slot; levels
 
 const float kFewTexels = 1.5;   // radius from which the next coarser level is taken when it doubles
@@ -40,6 +40,8 @@ void main() {
     vec2 extent = vec2(sqrt(qy), sqrt(qx)) / sqrt(q.x * q.y) + 0.5 + apart;
     ivec2 first = ivec2(floor(centre - extent + 0.5)), last = ivec2(floor(centre + extent - 0.5));
     int side = (place.x * place.y) >> level;
+    int whole = place.x * place.y;
+    ivec2 shelf = level > 0 ? ivec2(whole - 2 * side, whole) : ivec2(0);   // caustic_mips.comp
     float sum = 0.0, weights = 0.0;
     for (int y = first.y; y <= last.y; ++y) {
         vec4 dy = vec4(float(y) + 0.5 - centre.y) + lines;
@@ -54,9 +56,10 @@ void main() {
             vec4 w = clamp(halfRun - left + 0.5, vec4(0.0), min(2.0 * halfRun, vec4(1.0))) +
                      clamp(halfRun - right + 0.5, vec4(0.0), min(2.0 * halfRun, vec4(1.0)));
             float weight = dot(w, reached);
-            sum += weight * texelFetch(sharpMap, ivec3(clamp(x, 0, side - 1), row, id.z), level).x;
+            sum += weight * texelFetch(sharpMap, ivec3(shelf + ivec2(clamp(x, 0, side - 1), row), id.z), 0).x;
             weights += weight;
         }
     }
-    imageStore(maps, ivec3(id.xy, 2 * slot + id.z), vec4(sum / max(weights, 1e-6)));
+    imageStore(maps, ivec3(id.xy, 2 * slot + id.z),
+               vec4(sum / max(weights, 1e-6), height < kNothingLit ? height : mean.w * 1e9, 0.0, 0.0));
 }

@@ -2,8 +2,9 @@
 // Light on each pixel's surface that came through the water's surface or was thrown up by it, from the caustic maps;
 // and the smooth light of sky and scattered sun under water. Variants: NO_NORMALS, normals are taken from the depth;
 // NO_LAMPS, the sun alone;
-// TILES, only the tiles listed before, exactly; without it all pixels as if no wave were high and the surface threw no
-// light up, and tiles where that does not hold are listed.
+// TILES, only tiles listed before: with surfaces behind others, and with WATERLINE those near it too; without it all
+// pixels as if no wave were high, the surface threw no light up and nothing lay behind anything: tiles where that does
+// not hold are listed.
 // llvmpipe runs every branch and every loop at least once: hence two passes, and straight lines in the first.
 #include "water/caustic.shared.h"
 #include "frame/gbuffer.lib.glsl"
@@ -14,7 +15,7 @@
 layout(local_size_x = 16, local_size_y = 8) in;
 
 #ifndef TILES
-shared uint shallow;   // 1: the tile has surfaces that waves may leave dry, or that the surface throws light at
+shared uint shallow, deeper;   // 1: the tile has surfaces near the waterline, behind others
 #endif
 
 layout(binding = 0) uniform sampler2D viewDepthTexture;
@@ -25,8 +26,9 @@ layout(binding = SHOAL_UNIT_CAUSTIC_MAPS) uniform sampler2DArray causticMaps;
 layout(binding = 0, rgba16f) uniform writeonly image2D directImage;
 layout(binding = 1, rgba16f) uniform writeonly image2D ambientImage;
 layout(location = 0) uniform bool ambientWanted;
-// Groups of a dispatch over the listed tiles, then the tiles: x, y in 16 bits each.
-layout(std430, binding = SHOAL_STORAGE_WATER) buffer Tiles { uint tileGroups[4]; uint tiles[]; };
+// Groups of two dispatches over listed tiles, then the tiles (x, y in 16 bits each): near the waterline from the start,
+// behind something from the end.
+layout(std430, binding = SHOAL_STORAGE_WATER) buffer Tiles { uint tileGroups[8]; uint tiles[]; };
 
 const float kSkyTransmittance = 0.934;   // of light from all of the sky through level water
 const float kFromBelow = 0.05;           // of downwelling light comes back from below
@@ -74,8 +76,9 @@ vec3 towardsLight(vec3 p, int slot) {
 }
 
 // The map's value for a surface at light-space place s: bilinear over what is seen of one height. group: any slot of
-// the map's group; slope: of the surface in light space; pixelM: metres a pixel.
-float mapValue(vec2 s, float height, float slope, float pixelM, int group, int slot, vec4 place) {
+// the map's group; slope: of the surface in light space; pixelM: metres a pixel; behind: set where the second layer would have
+// to be looked at.
+float mapValue(vec2 s, float height, float slope, float pixelM, int group, int slot, vec4 place, inout bool behind) {
     int size = int(lightSpace.counts.y);
     vec4 rows = lightSpace.slots[group].rows, heights = lightSpace.slots[group].height;
     float side = lightSpace.slots[group].mean.w;
@@ -86,29 +89,33 @@ float mapValue(vec2 s, float height, float slope, float pixelM, int group, int s
     ivec2 corner = ivec2(low) - (ivec2(floor(place.xy * place.w + 0.5)) >> mip);
     vec4 w = vec4((1.0 - f.x) * (1.0 - f.y), f.x * (1.0 - f.y), (1.0 - f.x) * f.y, f.x * f.y);
     ivec2 a = clamp(corner, ivec2(0), ivec2((size >> mip) - 1)), b = clamp(corner + 1, ivec2(0), ivec2((size >> mip) - 1));
-    ivec2 ta = (a << mip) + ((1 << mip) >> 1), tb = (b << mip) + ((1 << mip) >> 1);
-    ta.y = int(rows.x) * ta.y + int(rows.y), tb.y = int(rows.x) * tb.y + int(rows.y);
+    // Mips lie above the map itself (one level for the sampler: a level of each pixel's own costs llvmpipe dear).
+    ivec2 shelf = mip > 0 ? ivec2(size - (2 * size >> mip), size) : ivec2(0);
     int layer = 2 * slot;
-    vec4 depth = vec4(texelFetch(litDepth, ivec3(ta, layer), 0).x, texelFetch(litDepth, ivec3(tb.x, ta.y, layer), 0).x,
-                      texelFetch(litDepth, ivec3(ta.x, tb.y, layer), 0).x, texelFetch(litDepth, ivec3(tb, layer), 0).x);
-    vec4 value = vec4(texelFetch(causticMaps, ivec3(a, layer), mip).x,
-                      texelFetch(causticMaps, ivec3(b.x, a.y, layer), mip).x,
-                      texelFetch(causticMaps, ivec3(a.x, b.y, layer), mip).x,
-                      texelFetch(causticMaps, ivec3(b, layer), mip).x);
-    // Heights as heightOfDepth gives them; in front of nothing is in front.
-    vec4 lit = (heights.x * depth + heights.y) / (heights.z * depth + heights.w);
-    bvec4 hidden = greaterThan(side * (vec4(height) - lit) * sign(depth), vec4(tolerance));
+    // Irradiance, and the height of what has it.
+    vec2 first = texelFetch(causticMaps, ivec3(shelf + a, layer), 0).xy;
+    vec2 second = texelFetch(causticMaps, ivec3(shelf + ivec2(b.x, a.y), layer), 0).xy;
+    vec2 third = texelFetch(causticMaps, ivec3(shelf + ivec2(a.x, b.y), layer), 0).xy;
+    vec2 fourth = texelFetch(causticMaps, ivec3(shelf + b, layer), 0).xy;
+    vec4 value = vec4(first.x, second.x, third.x, fourth.x), lit = vec4(first.y, second.y, third.y, fourth.y);
+    bvec4 hidden = greaterThan(side * (vec4(height) - lit), vec4(tolerance));
     float sum = dot(w, mix(value, vec4(0.0), hidden));
     // What the first layer hides may lie in the second.
     w = mix(vec4(0.0), w, hidden);
+#ifndef TILES
+    behind = behind || any(greaterThan(w, vec4(0.0)));
+#else
+    ivec2 ta = (a << mip) + ((1 << mip) >> 1), tb = (b << mip) + ((1 << mip) >> 1);
+    ta.y = int(rows.x) * ta.y + int(rows.y), tb.y = int(rows.x) * tb.y + int(rows.y);
     for (int i = 0; i < 4 && (w.x > 0.0 || w.y > 0.0 || w.z > 0.0 || w.w > 0.0); ++i) {
         ivec2 at2 = ivec2((i & 1) == 0 ? ta.x : tb.x, i < 2 ? ta.y : tb.y);
         ivec2 map2 = ivec2((i & 1) == 0 ? a.x : b.x, i < 2 ? a.y : b.y);
-        float second = texelFetch(litDepth, ivec3(at2, layer + 1), 0).x;
-        bool behind = second > 0.0 && side * (height - heightOfDepth(second, heights)) > tolerance;
-        sum += behind ? 0.0 : w[i] * texelFetch(causticMaps, ivec3(map2, layer + 1), mip).x;
+        float depth = texelFetch(litDepth, ivec3(at2, layer + 1), 0).x;
+        bool farther = depth > 0.0 && side * (height - heightOfDepth(depth, heights)) > tolerance;
+        sum += farther ? 0.0 : w[i] * texelFetch(causticMaps, ivec3(shelf + ivec2(map2), layer + 1), 0).x;
         if (i == 3) w = vec4(0.0);
     }
+#endif
     return sum;
 }
 
@@ -123,7 +130,7 @@ bool isUnderWater(vec3 p) {
     vec4 area = waterBlock.area;
     bool inArea = all(greaterThanEqual(p.xz, area.xy)) && all(lessThanEqual(p.xz, area.zw));
     float surface = 0.0;
-#ifdef TILES
+#ifdef WATERLINE
     if (abs(p.y - waterBlock.shape.x) <= waterBlock.shape.w) surface = waveSlopeAt(p.xz).x;
 #endif
     return inArea && p.y - waterBlock.shape.x < surface;
@@ -131,7 +138,11 @@ bool isUnderWater(vec3 p) {
 
 void main() {
 #ifdef TILES
+#ifdef WATERLINE
     uint tile = tiles[gl_WorkGroupID.x];
+#else
+    uint tile = tiles[tiles.length() - 1 - int(gl_WorkGroupID.x)];
+#endif
     ivec2 corner = ivec2(tile & 0xffffu, tile >> 16);
 #else
     ivec2 corner = ivec2(gl_WorkGroupID.xy);
@@ -144,15 +155,7 @@ void main() {
     vec3 normal = normalAt(pixel, p, viewDepth);
     bool under = there && isUnderWater(p);
     float pixelM = causticBlock.size.z * viewDepth + causticBlock.size.w;
-#ifndef TILES
-    // One thread asks for its tile.
-    if (gl_LocalInvocationIndex == 0u) shallow = 0u;
-    barrier();
-    if (there && p.y > waterBlock.shape.x - waterBlock.shape.w) shallow = 1u;
-    barrier();
-    if (gl_LocalInvocationIndex == 0u && shallow != 0u)
-        tiles[atomicAdd(tileGroups[0], 1u)] = uint(corner.x) | uint(corner.y) << 16;
-#endif
+    bool behind = false;
 
     // The sun's beam through level water: what all channels lose, and what each loses beyond that.
     float depth = max(waterBlock.shape.x - p.y, 0.0), metres = -depth / waterBlock.sunRefracted.y;
@@ -163,7 +166,7 @@ void main() {
 
     vec3 direct = vec3(0.0);
     float sunLeft = causticBlock.maps.y == 0.0 ? 1.0 : 0.0;   // share of the sun that no map covers
-#if defined(NO_LAMPS) && !defined(TILES)
+#if defined(NO_LAMPS) && !defined(WATERLINE)
     // The sun's slots come first.
     if (causticBlock.maps.y != 0.0) {
         const int group = 0;
@@ -180,21 +183,22 @@ void main() {
         float left = there && reflected != under ? 1.0 : 0.0, value = 0.0;
         if (facing <= 0.0) left = 0.0;
         // The finest slot there, and the next one where that fades.
-        int from = group;
-        for (int k = 0; k < 2; ++k) {
+        // (A count that the compiler does not know: it would unroll the loop, and llvmpipe run both turns for all.)
+        int from = group, blends = int(causticBlock.maps.z);
+        for (int k = 0; k < blends; ++k) {
             int slot = -1;
             float share = 0.0;
             vec4 place = lightSpace.slots[group].place;
             for (int i = 0; i < kMostCascades; ++i) {
-                int other = min(group + i, end - 1);
+                int other = min(group + i, SHOAL_MAX_LIGHT_SLOTS - 1);
                 float part = min(insideSlot(s, lightSpace.slots[other].place, other + 1 < end), left);
-                bool taken = slot < 0 && other >= from && part > 0.0;
+                bool taken = slot < 0 && other >= from && other < end && part > 0.0;
                 slot = taken ? other : slot;
                 share = taken ? part : share;
                 place = taken ? lightSpace.slots[other].place : place;
             }
             if (slot < 0) break;
-            value += share * mapValue(s, p.y, tilt, pixelM, group, slot, place);
+            value += share * mapValue(s, p.y, tilt, pixelM, group, slot, place, behind);
             left -= share;
             from = slot + 1;
             if (left <= 0.0) break;
@@ -213,6 +217,18 @@ void main() {
     }
     float sunFacing = max(dot(normal, waterBlock.sunRefracted.xyz) / waterBlock.sunRefracted.y, 0.0);
     if (under) direct += onLevel * beam * (sunLeft * sunFacing);
+#ifndef TILES
+    // One thread asks for its tile.
+    if (gl_LocalInvocationIndex == 0u) shallow = 0u, deeper = 0u;
+    barrier();
+    if (there && p.y > waterBlock.shape.x - waterBlock.shape.w) shallow = 1u;
+    if (behind) deeper = 1u;
+    barrier();
+    uint tile = uint(corner.x) | uint(corner.y) << 16;
+    if (gl_LocalInvocationIndex == 0u && shallow != 0u) tiles[atomicAdd(tileGroups[0], 1u)] = tile;
+    if (gl_LocalInvocationIndex == 0u && shallow == 0u && deeper != 0u)
+        tiles[tiles.length() - 1 - int(atomicAdd(tileGroups[4], 1u))] = tile;
+#endif
     if (!inside) return;
     imageStore(directImage, pixel, vec4(direct, under ? 1.0 : 0.0));
 

@@ -38,7 +38,7 @@ struct LightSlotRecord {
 };
 
 SHOAL_LIGHT_SPACE_BLOCK_BEGIN {
-    vec4 counts;  // x: slots, y: texels a side of a map
+    vec4 counts;  // x: slots, y: texels a side of a map, z, w: steps and passes of photonTravel
     LightSlotRecord slots[SHOAL_MAX_LIGHT_SLOTS];
 }
 #ifndef __cplusplus

@@ -1,6 +1,6 @@
 #version 450 core
-// Section 3.3: each grid point becomes four photons, each photon a point where it meets the scene. Not a loop: 4.1 found
-// that one costs half of the speed.
+// Section 3.3: each grid point becomes four photons, each photon a point where it meets the scene. Not a loop: 4.1
+// found that one costs half of the speed.
 #include "water/paper_trace.io.glsl"
 
 layout(points) in;

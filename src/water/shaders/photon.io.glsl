@@ -159,8 +159,9 @@ vec2 photonPlace(Photon p, int slot, float travel) {
 // find the place whose depth is its own. Where they do not, the photon passes behind an edge: it meets what lies
 // farthest from the light there.
 float photonTravel(Photon p, int slot, out int layer) {
-    const int kSteps = 4;
     const float kSamePlace = 0.5;   // texels: nearer places look up one height
+    // Counts that the compiler does not know: it would unroll the loops, and llvmpipe leaves only real ones early.
+    int steps = int(lightSpace.counts.z), passes = int(lightSpace.counts.w);
     int size = int(lightSpace.counts.y);
     vec4 rows = lightSpace.slots[slot].rows;
     vec4 place = lightSpace.slots[slot].place, height = lightSpace.slots[slot].height;
@@ -170,10 +171,10 @@ float photonTravel(Photon p, int slot, out int layer) {
     float travel = -1.0;
     layer = 0;
     bool found = false;
-    for (int pass = 0; pass < 2 && !found; ++pass) {
+    for (int pass = 0; pass < passes && !found; ++pass) {
         travel = 0.0;
         vec2 here = photonPlace(p, slot, 0.0) * place.w;
-        for (int i = 0; i < kSteps && !found; ++i) {
+        for (int i = 0; i < steps && !found; ++i) {
             // Beyond the rim goes on what is at the rim.
             ivec2 texel = clamp(ivec2(floor(here)) - corner, ivec2(0), ivec2(size - 1));
             texel.y = int(rows.x) * texel.y + int(rows.y);

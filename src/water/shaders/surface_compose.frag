@@ -46,14 +46,15 @@ struct Mirrored {
     float lengthM;
 };
 
-Mirrored lookUp(int which, sampler2D radiances, sampler2D depths, vec3 start, vec3 direction, bool ask) {
+Mirrored lookUp(int which, sampler2D radiances, sampler2D depths, vec3 start, vec3 direction, float first,
+                bool ask) {
     Mirrored m = Mirrored(vec4(0.0), kFarthestWater);
     mat4 clipFromWorld = surfaceBlock.clipFromWorld[which];
     vec2 pixels = surfaceBlock.mirrorSize[which].xy;
     vec4 clip0 = clipFromWorld * vec4(start, 1.0), clip1 = clipFromWorld * vec4(direction, 0.0);
     float depth0 = dot(surfaceBlock.depthRow[which], vec4(start, 1.0));
     float depth1 = dot(surfaceBlock.depthRow[which], vec4(direction, 0.0));
-    float t = kFirstLook, met = kFirstLook;
+    float t = first, met = first;
     vec2 place = vec2(0.0), at = vec2(0.0);
     // Where the ray is as deep as what is seen there; level water has it at the first look. What is nearer than the
     // start is not on the ray.
@@ -98,7 +99,7 @@ vec3 dimming(float lengthM) { return exp(-waterBlock.beamAttenuation.rgb * lengt
 
 // Radiance along a ray in the air, without the sun: what stands there, else the sky.
 vec4 airAlong(vec3 start, vec3 direction, float spread, bool ask) {
-    Mirrored m = lookUp(0, airRadiance, airDepth, start, direction, ask);
+    Mirrored m = lookUp(0, airRadiance, airDepth, start, direction, kFirstLook, ask);
     vec3 up = normalize(vec3(direction.x, max(abs(direction.y), 1e-3), direction.z));
     return vec4(skyRadiance(up, spread) * (1.0 - m.radiance.a) + m.radiance.rgb, 1.0 - m.radiance.a);
 }
@@ -184,13 +185,18 @@ void main() {
     if (surfaceBlock.grid.w == 0.0) inscatter = veil(enters ? start : ray.origin, lost);
     vec3 fromWater = opaque.rgb * lost + inscatter, radiance;
     if (enters) {
+        // Where the picture does not have what the bent ray meets, the view along bent rays may.
+        vec3 bent = refractedDirection(direction, normal, waterBlock.shape.y);
+        Mirrored met = lookUp(1, waterRadiance, waterDepth, start, bent, traced.z, traced.w < 0.0);
+        float share = -traced.w * met.radiance.a;
+        vec3 seen = met.radiance.rgb / max(met.radiance.a, 1e-3) * dimming(met.lengthM);
+        fromWater = share > 0.0 ? mix(opaque.rgb * lost, seen, share) + inscatter : fromWater;
         radiance = s.reflectance * fromAir.rgb + sun + (1.0 - s.reflectance) / index2 * fromWater;
 #ifdef FOAM
-        vec3 bent = refractedDirection(direction, normal, waterBlock.shape.y);
         radiance = withFoam(radiance, start, normal, -bent.y * traced.z, traced.z);
 #endif
     } else if (meets) {
-        Mirrored under = lookUp(1, waterRadiance, waterDepth, start, s.mirrored, true);
+        Mirrored under = lookUp(1, waterRadiance, waterDepth, start, s.mirrored, kFirstLook, true);
         vec3 lostUnder = dimming(under.lengthM);
         vec3 mirrored = under.radiance.rgb * lostUnder + veil(start, lostUnder);
         radiance = ((1.0 - s.reflectance) * index2 * fromAir.rgb + sun + s.reflectance * mirrored) * lost + inscatter;

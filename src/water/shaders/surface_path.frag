@@ -10,23 +10,29 @@ layout(binding = SHOAL_UNIT_PASS + 0) uniform sampler2D opaqueDepth;   // R32F v
 
 layout(location = 0) out vec4 outPath;
 
-const int kSearchSteps = 8;
+const int kSearchSteps = 10;
 const float kFirstGuess = 100.0;    // metres at most that the search begins at
 const float kBlindGuess = 2.0;      // and where nothing lies so near behind the pixel
 const float kLeastDepth = 0.02;     // metres that things may stand above the surface's point and count as wet
 const float kLargestBend = 0.02;    // of the inverse depth, over which neighbouring texels are not one plane
-const float kHitTolerance = 0.05;   // of the path's length: how far off the opaque surface a bent ray may end
+const float kSoftBorder = 0.03;     // of the picture's size
+const float kLargestStep = 0.2;     // of the same
+const float kCloseEnough = 1e-3;    // of the path's length
+const float kHitTolerance = 0.02;   // of the path's length: how far off the opaque surface a bent ray may end
 
-// View depth of the opaque surfaces between texels: its inverse is even over a plane on the screen; where the four
-// texels lie on no plane, that of the nearest.
-float opaqueDepthAt(vec2 pixel) {
+// View depth of the opaque surfaces between texels (x): its inverse is even over a plane on the screen; where the four
+// texels lie on no plane (y: 0), that of the nearest.
+vec2 opaqueDepthAt(vec2 pixel) {
     vec2 corner = floor(pixel - 0.5), f = pixel - 0.5 - corner;
     vec4 z = textureGather(opaqueDepth, (corner + 1.0) * size.zw, 0);   // (0, 1), (1, 1), (1, 0), (0, 0)
     vec4 inverse = mix(vec4(1.0 / kFarthestWater), 1.0 / z, greaterThan(z, vec4(0.0)));
     vec2 row = mix(inverse.wx, inverse.zy, f.x);
     float nearest = f.y < 0.5 ? (f.x < 0.5 ? inverse.w : inverse.z) : (f.x < 0.5 ? inverse.x : inverse.y);
     float bend = abs(inverse.x + inverse.z - inverse.y - inverse.w);
-    return 1.0 / (bend < kLargestBend * nearest ? mix(row.x, row.y, f.y) : nearest);
+    vec2 least = min(inverse.xy, inverse.zw), most = max(inverse.xy, inverse.zw);
+    bool plane = bend < kLargestBend * nearest &&
+                 max(most.x, most.y) - min(least.x, least.y) < kLargestStep * nearest;
+    return vec2(1.0 / (plane ? mix(row.x, row.y, f.y) : nearest), plane ? 1.0 : 0.0);
 }
 
 // Mirrored at the picture's borders: what lies beyond them is not known, and looks like what lies before.
@@ -36,56 +42,60 @@ vec2 insidePicture(vec2 pixel) {
     return min(turned, 2.0 * last - turned) + 0.5;
 }
 
-// What a bent ray meets: pixel (xy) and metres from the start (z). straight: where the unbent ray would end.
-vec3 followBent(vec3 start, vec3 direction, vec2 ownPixel, vec3 straight, bool ask) {
+// Metres along a bent ray to the height of a point.
+float toHeightOf(vec3 point, vec3 start, vec3 direction) {
+    return clamp((start.y - point.y) / max(-direction.y, 0.1), 0.0, kFarthestWater);
+}
+
+// What a bent ray meets: pixel (xy), metres from the start (z) and -1 in w where that is a guess. straight: where the
+// unbent ray would end.
+// Searched on g(t) = depth of the opaque surface less depth of the ray: outwards until g < 0, then between by secants and
+// halves in turn.
+vec4 followBent(vec3 start, vec3 direction, vec2 ownPixel, vec3 straight, bool ask) {
     vec4 clip0 = clipFromWorld * vec4(start, 1.0), clip1 = clipFromWorld * vec4(direction, 0.0);
     float depth0 = -(viewFromWorld * vec4(start, 1.0)).z, depth1 = -(viewFromWorld * vec4(direction, 0.0)).z;
-    // Bracketed secant [false position, Illinois] on g(t) = depth of the opaque surface less depth of the ray; first
-    // where the opaque surface would be if it was level.
     float straightM = min(distance(straight, start), kFarthestWater);
-    float drop = start.y - straight.y, t = clamp(drop / max(-direction.y, 0.1), 0.1 * straightM, 2.0 * straightM);
-    t = drop > 0.0 && t < kFirstGuess ? t : kBlindGuess;
-    float low = 0.0, gLow = straightM, high = -1.0, gHigh = 0.0;
-    vec3 best = vec3(ownPixel, straightM);
-    float bestMiss = 1e30;
+    // First where the opaque surface would be if it was level.
+    float t = clamp(toHeightOf(straight, start, direction), 0.1 * straightM, 2.0 * straightM);
+    t = straight.y < start.y && t < kFirstGuess ? t : kBlindGuess;
+    float low = 0.0, gLow = straightM, high = -1.0, gHigh = 0.0, bestMiss = 1e30;
+    // Behind a crest that hides things in the air: as if deep.
+    vec4 best = vec4(0.0);
+    vec3 lowEnd = vec3(ownPixel, straight.y > start.y + kLeastDepth ? kFirstGuess : straightM);
     int rounds = ask ? kSearchSteps : 0;
     for (int i = 0; i < rounds; ++i) {
         vec4 clip = clip0 + clip1 * t;
         vec2 pixel = (clip.xy / max(clip.w, 1e-4) * 0.5 + 0.5) * size.xy;
         vec2 inside = clamp(pixel, vec2(0.5), size.xy - 0.5);
-        float opaque = opaqueDepthAt(inside);
+        vec2 opaque = opaqueDepthAt(inside);
         PixelRay ray = rayOfPixel(inside);
-        vec3 hit = ray.origin + ray.step * opaque;
+        vec3 hit = ray.origin + ray.step * opaque.x;
         if (inside != pixel) {
             // Nothing is known there: as if what is seen at the border went on level.
-            t = clamp((start.y - hit.y) / max(-direction.y, 0.1), 0.0, kFarthestWater);
+            t = toHeightOf(hit, start, direction);
             clip = clip0 + clip1 * t;
-            best = vec3((clip.xy / max(clip.w, 1e-4) * 0.5 + 0.5) * size.xy, t);
+            best = vec4((clip.xy / max(clip.w, 1e-4) * 0.5 + 0.5) * size.xy, t, -1.0);
             bestMiss = 0.0;
             break;
         }
-        float miss = distance(hit, start + direction * t), g = opaque - (depth0 + depth1 * t);
+        float miss = distance(hit, start + direction * t), g = opaque.x - (depth0 + depth1 * t);
         // What is nearer than the surface or above it is not in the water.
-        bool behind = dot(hit - start, direction) > 0.0 && hit.y < start.y + kLeastDepth;
-        bool better = behind && miss < bestMiss;
-        best = better ? vec3(pixel, distance(hit, start)) : best;
+        bool wet = dot(hit - start, direction) > 0.0 && hit.y < start.y + kLeastDepth;
+        bool better = wet && opaque.y > 0.0 && miss < bestMiss;   // at an edge the picture mixes near and far
+        best = better ? vec4(pixel, distance(hit, start), 0.0) : best;
         bestMiss = better ? miss : bestMiss;
-        if (miss < 1e-3 * t) break;
-        if (g > 0.0) {
-            gHigh *= high > 0.0 && low > 0.0 ? 0.5 : 1.0;
-            low = t, gLow = g;
-            // Until it is beyond: on to the distance of what was seen.
-            t = high > 0.0 ? low + (high - low) * gLow / (gLow - gHigh) : max(distance(hit, start), 1.05 * t);
-        } else {
-            gLow *= high > 0.0 ? 0.5 : 1.0;
-            high = t, gHigh = g;
-            t = low + (high - low) * gLow / (gLow - gHigh);
-        }
+        if (miss < kCloseEnough * t) break;
+        bool before = g > 0.0;
+        lowEnd = before && wet ? vec3(pixel, toHeightOf(hit, start, direction)) : lowEnd;
+        low = before ? t : low, gLow = before ? g : gLow;
+        high = before ? high : t, gHigh = before ? gHigh : g;
+        float secant = low + (high - low) * gLow / max(gLow - gHigh, 1e-6);
+        float outwards = max(distance(hit, start), 1.05 * t);
+        t = high < 0.0 ? outwards : (i & 1) == 0 ? secant : 0.5 * (low + high);
         t = clamp(t, 0.0, kFarthestWater);
     }
-    // Found nowhere: as if not bent; behind a crest that hides things in the air, as if deep.
-    float unbentM = straight.y > start.y + kLeastDepth ? kFirstGuess : straightM;
-    return bestMiss <= kHitTolerance * best.z + 0.01 ? best : vec3(ownPixel, unbentM);
+    // What the ray meets is hidden behind something nearer: what is seen beside that stands for it.
+    return bestMiss <= kHitTolerance * best.z + 0.01 ? best : vec4(lowEnd, -1.0);
 }
 
 void main() {
@@ -102,8 +112,10 @@ void main() {
     vec3 normal = decodeNormal(texelFetch(waterSurfaceNormal, at, 0).xy);
     vec3 bent = refractedDirection(direction, normal, waterBlock.shape.y);
     bool enters = surface > 0.0;
-    vec3 met = followBent(start, bent, gl_FragCoord.xy, ray.origin + direction * opaqueM, enters);
+    vec4 met = followBent(start, bent, gl_FragCoord.xy, ray.origin + direction * opaqueM, enters);
     vec2 offset = (insidePicture(met.xy) - gl_FragCoord.xy) * size.zw;
+    vec2 border = 0.5 - abs(met.xy * size.zw - 0.5);
+    float guessed = min(met.w, -clamp(1.0 - min(border.x, border.y) / kSoftBorder, 0.0, 1.0));
 
     // Not bent: from the eye, or in through a side of the area.
     vec3 nearPoint = ray.origin + ray.step * depthRange.x;
@@ -115,5 +127,5 @@ void main() {
     bool wet = fromEye || !drawn || aroundArea;
     float straightWaterM = wet ? clamp(end - begin, 0.0, kFarthestWater) : 0.0;
 
-    outPath = enters ? vec4(offset, met.z, 0.0) : vec4(0.0, 0.0, straightWaterM, fromEye ? 1.0 : 0.0);
+    outPath = enters ? vec4(offset, met.z, guessed) : vec4(0.0, 0.0, straightWaterM, fromEye ? 1.0 : 0.0);
 }
