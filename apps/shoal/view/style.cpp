@@ -83,8 +83,9 @@ void applyStyle(Theme theme, float scale) {
     style.IndentSpacing = 12;
     style.ScaleAllSizes(scale);
     setColors(theme);
-    ImGuiIO& io = ImGui::GetIO();
-    io.Fonts->Clear();
+}
+
+void loadFonts(float scale) {
     addFont("DejaVuSans.ttf", 14 * scale);
     monoFont = addFont("DejaVuSansMono.ttf", 13 * scale);
 }

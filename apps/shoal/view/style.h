@@ -5,9 +5,10 @@ namespace shoal::viewer {
 
 enum class Theme { dark, light };
 
-// Colours, spacing and the font for pixels of `scale` (1: a screen of about 96 dots an inch). Makes the font's texture
-// again; call between frames.
+// Colours and spacing for pixels of `scale` (1: a screen of about 96 dots an inch). Between frames.
 void applyStyle(Theme theme, float scale);
+// The fonts for that scale; before the first frame.
+void loadFonts(float scale);
 // A colour of the theme for lines and marks over the picture.
 unsigned accentColor();
 unsigned warningColor();

@@ -87,10 +87,7 @@ void drawTurn(Viewer& viewer, double seconds) {
     const int width = viewer.window.width(), height = viewer.window.height();
     io.DisplaySize = {float(width), float(height)};
     io.DeltaTime = float(std::max(seconds, 1e-4));
-    if (std::exchange(viewer.styleChanged, false)) {
-        applyStyle(viewer.settings.theme, viewer.uiScale);
-        ImGui_ImplOpenGL3_DestroyDeviceObjects();  // NewFrame makes them again, with the new letters
-    }
+    if (std::exchange(viewer.styleChanged, false)) applyStyle(viewer.settings.theme, viewer.uiScale);
     ImGui_ImplOpenGL3_NewFrame();
     ImGui::NewFrame();
     drawLayout(viewer);
@@ -172,6 +169,7 @@ Result<void> run(const ViewOptions& o) {
     Viewer viewer(*window, std::move(document), std::move(picture));
     shown = &viewer;
     viewer.uiScale = screenScale(window->handle(), o.uiScale);
+    loadFonts(viewer.uiScale);
     if (script) {
         viewer.recordSettings = false;  // a test leaves nothing behind
     } else {

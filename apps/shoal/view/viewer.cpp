@@ -22,6 +22,36 @@ double milliseconds(std::chrono::steady_clock::time_point since) {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - since).count();
 }
 
+const scene::CameraKey& nearestKey(const std::vector<scene::CameraKey>& keys, float time) {
+    return *std::min_element(keys.begin(), keys.end(), [&](const auto& a, const auto& b) {
+        return std::abs(a.time - time) < std::abs(b.time - time);
+    });
+}
+
+// To the nearest box that the middle of the picture meets from outside, else to the middle of everything.
+float distanceAhead(const light::Camera& camera, const scene::Content& content, const Bounds& all) {
+    const Mat4& m = camera.worldFromView;
+    const Vec3 eye = camera.position(), ahead{-m(0, 2), -m(1, 2), -m(2, 2)};
+    float nearest = 1e30f;
+    for (const Bounds& box : content.focusBoxes) {
+        float enter = -1e30f, leave = 1e30f;
+        const auto slab = [&](float from, float along, float lo, float hi) {
+            if (std::abs(along) < 1e-9f) {
+                if (from < lo || from > hi) leave = -1e30f;
+                return;
+            }
+            const float a = (lo - from) / along, b = (hi - from) / along;
+            enter = std::max(enter, std::min(a, b)), leave = std::min(leave, std::max(a, b));
+        };
+        slab(eye.x, ahead.x, box.lo.x, box.hi.x);
+        slab(eye.y, ahead.y, box.lo.y, box.hi.y);
+        slab(eye.z, ahead.z, box.lo.z, box.hi.z);
+        if (enter > 0 && enter <= leave) nearest = std::min(nearest, 0.5f * (enter + std::min(leave, 2 * enter)));
+    }
+    if (nearest < 1e30f) return nearest;
+    return std::max(dot(all.center() - eye, ahead), 0.1f * std::max(all.radius(), 0.01f));
+}
+
 }  // namespace
 
 Viewer::Viewer(gl::Window& window, Document document, Picture picture)
@@ -114,12 +144,13 @@ scene::CameraSpec Viewer::cameraSpec() const {
     const scene::Scene& scene = document.scene();
     const light::Camera seen = scene::cameraAt(picture.scene(), picture.content(), timeline.time, aspect());
     float pivot = length(scene.camera.target - scene.camera.position);
-    if (scene.cameraKind != scene::CameraKind::fixed) {
-        const Mat4& m = seen.worldFromView;
-        const Vec3 ahead{-m(0, 2), -m(1, 2), -m(2, 2)};
-        const float toMiddle = dot(sceneBounds().center() - seen.position(), ahead);
-        pivot = std::max(toMiddle, 0.1f * std::max(sceneBounds().radius(), 0.01f));
-    }
+    if (scene.cameraKind == scene::CameraKind::orbit)
+        pivot = scene.orbit.radius;
+    else if (scene.cameraKind == scene::CameraKind::path)
+        pivot = length(nearestKey(scene.cameraKeys, timeline.time).target -
+                       nearestKey(scene.cameraKeys, timeline.time).position);
+    else if (scene.cameraKind != scene::CameraKind::fixed)
+        pivot = distanceAhead(seen, picture.content(), sceneBounds());
     ViewCamera own;
     own.take(seen, scene.camera, pivot);
     return own.spec();
