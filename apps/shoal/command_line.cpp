@@ -88,7 +88,7 @@ void addView(CLI::App& app, ViewOptions& o) {
     verb->add_flag("--debug", o.debug, "OpenGL debug messages to stderr");
     verb->footer(
         "\nF1 in the window lists the keys.\n\nExamples:\n  shoal view scenes/plaza.toml\n"
-        "  shoal view ship.glb evening.hdr\n");
+        "  shoal view scenes/plaza.toml --set post.exposureEv=1 --size 960x540\n");
 }
 
 void addInfo(CLI::App& app, InfoOptions& o) {
@@ -137,7 +137,7 @@ std::vector<VerbWords> wordsOf(const CLI::App& app) {
         VerbWords words{verb->get_name(), verb->get_description(), {}};
         for (const CLI::Option* option : verb->get_options()) {
             if (option->get_positional()) continue;
-            OptionWords one{{}, option->get_description(), option->get_type_size() > 0, {}};
+            OptionWords one{{}, option->get_description(), option->get_items_expected_max() > 0, {}};
             for (const std::string& name : option->get_lnames()) {
                 one.names.push_back("--" + name);
                 one.values = wordsOf("--" + name);

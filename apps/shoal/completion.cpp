@@ -18,12 +18,16 @@ std::vector<std::string> namesOf(const std::vector<VerbWords>& verbs) {
     return names;
 }
 
-// One line without what a shell would read: quotes, brackets, colons.
+// One line without what a shell would read: quotes, brackets, dollars.
 std::string plain(const std::string& sentence) {
     std::string text;
-    for (const char c : sentence)
-        if (std::string("'\"`$\\[]:\n").find(c) == std::string::npos) text += c;
-    return text.substr(0, 100);
+    for (const char c : sentence.substr(0, 100)) {
+        if (c == '\'')
+            text += "\xe2\x80\x99";  // the typographic apostrophe
+        else if (std::string("\"`$\\[]\n").find(c) == std::string::npos)
+            text += c;
+    }
+    return text;
 }
 
 std::string bashScript(const std::vector<VerbWords>& verbs) {

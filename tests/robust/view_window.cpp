@@ -3,6 +3,7 @@
 
 #include <cstdlib>
 #include <regex>
+#include <sstream>
 
 #include <shoal/core/compare.h>
 #include <shoal/io/image.h>
@@ -295,6 +296,28 @@ quit
     expectSamePicture("a.png", "b.png");
     expectOtherPicture("b.png", "c.png");
     expectOtherPicture("c.png", "d.png");
+}
+
+TEST_F(ViewWindow, ExamplesOfTheHelpWork) {
+    SHOAL_NEEDS_SCREEN(screen)
+    std::filesystem::create_directory_symlink(std::filesystem::path(SHOAL_SOURCE_DIR) / "scenes", folder / "scenes");
+    test::writeText(folder / "script.txt", "wait loaded\nwait 2\nprint end\nquit\n");
+    const ProgramRun help = test::runTool({"view", "--help"});
+    std::istringstream lines(help.out.substr(help.out.find("Examples:")));
+    int count = 0;
+    for (std::string line; std::getline(lines, line);) {
+        std::istringstream stream(line);
+        std::vector<std::string> words;
+        for (std::string word; stream >> word;) words.push_back(word);
+        if (words.size() < 3 || words[0] != "shoal") continue;
+        words.erase(words.begin());
+        words.insert(words.end(), {"--script", "script.txt"});
+        const ProgramRun run = test::runTool(words, options());
+        EXPECT_EQ(run.exitCode, 0) << run.describe();
+        EXPECT_EQ(errorOf(run, "end"), "");
+        ++count;
+    }
+    EXPECT_EQ(count, 2) << help.out;
 }
 
 TEST_F(ViewWindow, RefusalsAreOneLine) {

@@ -61,7 +61,7 @@ void drawReadings(Viewer& v) {
     const auto readings = v.inspector.at(x, y, v.picture.content());
     if (readings.empty()) return;
     const float em = ImGui::GetFontSize();
-    const bool right = x > 0.6f, low = y > 0.6f;
+    const bool right = float(v.cursorX) + 27 * em > float(a.x + a.width), low = y > 0.5f;  // inside the picture
     ImGui::SetNextWindowPos({float(v.cursorX) + (right ? -em : em), float(v.cursorY) + (low ? -em : em)},
                             ImGuiCond_Always, {right ? 1.0f : 0.0f, low ? 1.0f : 0.0f});
     ImGui::SetNextWindowBgAlpha(0.9f);
