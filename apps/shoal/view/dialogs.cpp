@@ -30,7 +30,8 @@ void prepare(Viewer& v) {
     const fs::path file = fs::absolute(v.document.file()).lexically_normal();
     if (shown == Dialog::open) path = file.parent_path().string() + "/";
     if (shown == Dialog::save)
-        path = v.document.isSceneFile() ? file.string() : (fs::current_path() / file.stem()).string() + ".toml";
+        path = ((v.document.isSceneFile() ? file.parent_path() : fs::current_path()) / file.stem()).string() +
+               "_view.toml";
     if (shown == Dialog::screenshot) path = (fs::current_path() / file.stem()).string() + ".png";
 }
 

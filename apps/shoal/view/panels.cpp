@@ -41,7 +41,7 @@ void drawCamera(Viewer& v, const FieldActions& actions) {
         if (ImGui::Button("frame (F)")) v.press('F', 0);
         ImGui::SameLine();
         if (ImGui::Button("scene's (Home)")) v.goToSceneCamera();
-        if (!v.camera.isFree()) ImGui::TextDisabled("the scene's own camera; drag in the picture to take over");
+        if (!v.camera.isFree()) ImGui::TextDisabled("the scene's own; drag the picture to take over");
         for (const FieldInfo& info : group.fields) drawField(info, actions);
     } else {
         drawGroup(group, actions, filterText);

@@ -55,6 +55,8 @@ void setColors(Theme theme) {
     c[ImGuiCol_FrameBg] = dark ? rgb(0x2c3339) : rgb(0xdfe4e7);
     c[ImGuiCol_FrameBgHovered] = dark ? rgb(0x38424a) : rgb(0xd2dade);
     c[ImGuiCol_FrameBgActive] = dark ? rgb(0x42505a) : rgb(0xc2cdd3);
+    c[ImGuiCol_TitleBg] = c[ImGuiCol_MenuBarBg];
+    c[ImGuiCol_TitleBgActive] = dark ? rgb(0x28495a) : rgb(0xb9d0db);
     c[ImGuiCol_Header] = faded(0.28f);
     c[ImGuiCol_HeaderHovered] = faded(0.5f);
     c[ImGuiCol_HeaderActive] = faded(0.7f);

@@ -130,7 +130,9 @@ void Viewer::watchFiles(double seconds) {
         }
     }
     if (std::getenv("SHOAL_SHADER_DIR")) {
-        const int rebuilt = window.device().programs().reload();
+        const std::string before = std::exchange(error_, "");
+        const int rebuilt = window.device().programs().reload();  // tells errors by the device's log
+        if (rebuilt == 0 && error_.empty()) error_ = before;
         if (rebuilt > 0) {
             say(std::to_string(rebuilt) + (rebuilt == 1 ? " program" : " programs") + " built again");
             picture.begin();
@@ -398,6 +400,7 @@ std::string Viewer::statusLine() const {
         return picture.loading() ? "reading " + document.file().filename().string() + " ..." : "no picture";
     char text[200];
     const int width = viewport.width, height = viewport.height;
+    const scene::RenderSpec& shown = picture.scene().render;
     if (picture.shownScale() < 1 || interacting())
         std::snprintf(text, sizeof text, "moving: %.0f %% of %d x %d, 1 sample a pixel",
                       double(100 * picture.shownScale()), width, height);
@@ -406,8 +409,9 @@ std::string Viewer::statusLine() const {
                       picture.samplesWanted(), width, height);
     else
         std::snprintf(text, sizeof text, "full quality: %d x %d, %s: what `shoal render` draws", width, height,
-                      picture.samplesWanted() > 1 ? (std::to_string(picture.samplesWanted()) + " samples").c_str()
-                                                  : picture.scene().render.antialiasing.c_str());
+                      shown.antialiasing == "supersample"
+                          ? (std::to_string(shown.samples) + (shown.samples == 1 ? " sample" : " samples")).c_str()
+                          : ("antialiasing " + shown.antialiasing).c_str());
     std::string line = text;
     if (picture.loading()) line += " (reading again)";
     return line;
