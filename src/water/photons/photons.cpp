@@ -15,6 +15,7 @@
 #include "frame/fullscreen.h"
 #include "water/bindings.shared.h"
 #include "water/caustic.shared.h"
+#include "water/light_space.shared.h"
 #include "water/photons/emission.h"
 #include "water/surface/water_block.h"
 
@@ -31,7 +32,9 @@ struct Photons::State {
     // Looking up: all pixels, listed tiles deep down, those near the waterline; the sun alone or lamps too; without
     // normals, with.
     const gl::Program* lookup[3][2][2] = {};
-    gl::Buffer tiles;
+    const gl::Program* lookupFew[2] = {};  // the first of them for one or two slots of the sun
+    const gl::Program* listTiles = nullptr;
+    gl::Buffer tiles, tileFlags, secondUsed;
     gl::Buffer deposits;  // of one slot at a time
     gl::Buffer commands;  // work groups of the passes after the deposit, for one layer or two
     gl::Texture sharp;    // its two layers before the light's disc blurs them
@@ -48,15 +51,16 @@ namespace {
 
 using State = Photons::State;
 
-constexpr int kMostMipLevels = 4;  // squares begin at multiples of 8 texels
+constexpr int kMipLevels = 3;  // squares begin at multiples of 8 texels
 constexpr int kSharpLevels = 6;
-constexpr std::size_t kMostPasses = 2 + kSharpLevels + kMostMipLevels;  // of one slot after the deposit
+constexpr std::size_t kMostPasses = 2 + kSharpLevels + kMipLevels;  // of one slot after the deposit
 constexpr int kLargestFineMap = 1024;  // texels a side of maps that may be deposited twice as fine
 // Radius of the light's disc at the slot's bottom, texels: smaller ones are not seen, and up to the second one the map
 // that they blur must be twice as fine (convolving 512^2 bins by .9 texels leaves 11 % error,
 // 1024^2 bins 2 %) where one map is all there is; where maps follow each other their steps are larger than that.
 constexpr double kSeenDisc = 0.6, kWideDisc = 2;
-constexpr double kReflectedShare = 0.25;
+constexpr double kReflectedShare = 0.125;
+constexpr float kFewTexels = 1.5f;
 constexpr float kBlends = 2;  // maps that a lookup blends at most
 
 // Texels in height of a map with its mips in a row above it.
@@ -93,6 +97,12 @@ Result<void> makePrograms(gl::Device& device, State& s) {
         if (!(i & 1)) defines.push_back({"NO_NORMALS", ""});
         SHOAL_TRY_ASSIGN(s.lookup[i >> 2][i >> 1 & 1][i & 1], lookup(defines));
     }
+    for (int normals = 0; normals < 2; ++normals) {
+        std::vector<std::pair<std::string, std::string>> defines = {{"NO_LAMPS", ""}, {"FEW_SLOTS", ""}};
+        if (!normals) defines.push_back({"NO_NORMALS", ""});
+        SHOAL_TRY_ASSIGN(s.lookupFew[normals], lookup(defines));
+    }
+    SHOAL_TRY_ASSIGN(s.listTiles, device.programs().get({{"water/caustic_tiles.comp"}, {}, "caustic tiles"}));
     return {};
 }
 
@@ -149,7 +159,7 @@ void depositSlot(State& s, const frame::Context& context, int index, const Light
 // The passes after the deposit, in order: each covers `side` texels a side of one layer or two.
 class LayerPasses {
 public:
-    LayerPasses(State& s, int deposits) : state_(s), flag_(2 * deposits * deposits) {}
+    LayerPasses(State& s, int deposits, int slot) : state_(s), flag_(2 * deposits * deposits), slot_(slot) {}
 
     void add(const gl::Program& program, int side, std::function<void()> bind) {
         const auto groups = [&](int axis) {
@@ -163,7 +173,8 @@ public:
         state_.commands.writeAll(std::span<const std::uint32_t>(words_));
         state_.deposits.bindStorage(SHOAL_STORAGE_WATER);
         state_.commands.bindStorage(SHOAL_STORAGE_WATER + 1);
-        glProgramUniform2i(state_.layers->name(), 0, int(flag_), int(count_));
+        state_.secondUsed.bindStorage(SHOAL_STORAGE_WATER + 2);
+        glProgramUniform3i(state_.layers->name(), 0, flag_, int(count_), slot_);
         state_.layers->dispatch(1);
         glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, state_.commands.name());
         for (std::size_t i = 0; i < count_; ++i) {
@@ -182,7 +193,8 @@ private:
         std::function<void()> bind;
     };
     State& state_;
-    std::size_t flag_, count_ = 0;
+    int flag_, slot_;
+    std::size_t count_ = 0;
     std::array<Pass, kMostPasses> passes_;
     std::array<std::uint32_t, 3 * kMostPasses> words_{};
 };
@@ -199,31 +211,38 @@ int levelsFor(double radius) {
     return std::clamp(1 + int(std::floor(std::log2(std::max(radius, 1.0)))), 1, kSharpLevels);
 }
 
-void resolveSlot(State& s, const frame::Context& context, int index, double disc, int fine) {
+void resolveSlot(State& s, const frame::Context& context, int index, double disc, int fine, bool alone) {
     const gl::PassScope pass(context.timer, "caustic maps");
     const int resolution = s.setup.resolution, side = resolution * fine;
     const bool blurs = disc >= kSeenDisc;
-    // The second layer is dark unless a photon met it.
-    const float dark[2] = {0, 0};
-    glClearTexSubImage(s.maps.name(), 0, 0, 0, 2 * index + 1, resolution, shelved(resolution), 1, GL_RG, GL_FLOAT,
-                       dark);
-    LayerPasses passes(s, side);
-    passes.add(*s.resolve[blurs], side, [&] {
+    LayerPasses passes(s, side, index);
+    passes.add(*s.resolve[blurs], blurs ? side : (side + 3) / 4, [&] {
         gl::bindImage(0, blurs ? s.sharp : s.maps, GL_WRITE_ONLY);
-        glProgramUniform2i(s.resolve[blurs]->name(), 0, side, index);
+        glProgramUniform4i(s.resolve[blurs]->name(), 0, side, index, s.mipLevels, 0);
     });
     if (blurs) {
         const int levels = levelsFor(disc * fine);
         addMips(s, passes, true, 0, side, levels);
-        passes.add(*s.disc, resolution, [&s, resolution, fine, index, levels] {
+        passes.add(*s.disc, resolution, [&s, resolution, fine, index, levels, alone] {
             gl::bindTexture(0, s.sharp);
             glBindSampler(0, 0);
             gl::bindImage(0, s.maps, GL_WRITE_ONLY);
+            // Where maps follow each other, half as many texels a radius will do: a quarter of the time.
+            s.disc->set(1, alone ? kFewTexels : 0.5f * kFewTexels);
             glProgramUniform4i(s.disc->name(), 0, resolution, fine, index, levels);
         });
     }
-    addMips(s, passes, false, 2 * index, resolution, s.mipLevels);
+    if (blurs) addMips(s, passes, false, 2 * index, resolution, s.mipLevels);
     passes.run();
+}
+
+// Lists and flags of tiles; grown for larger pictures.
+void makeTileBuffers(State& s, std::size_t tiles, std::size_t header) {
+    const std::size_t list = header + tiles * sizeof(std::uint32_t), flags = 2 * tiles * sizeof(std::uint32_t);
+    if (s.tiles.bytes() < list) s.tiles = gl::Buffer::create(*s.device, list, "caustic tiles");
+    if (s.tileFlags.bytes() >= flags) return;
+    s.tileFlags = gl::Buffer::create(*s.device, flags, "caustic tile flags");
+    s.tileFlags.clear(0);
 }
 
 Vec4 with(Vec3 v) { return {v.x, v.y, v.z, 0}; }
@@ -269,7 +288,7 @@ Result<Photons> Photons::create(gl::Device& device, const PhotonSetup& setup) {
     s.device = &device;
     s.setup = setup;
     SHOAL_TRY(makePrograms(device, s));
-    while (s.mipLevels < kMostMipLevels && setup.resolution % (1 << s.mipLevels) == 0) ++s.mipLevels;
+    s.mipLevels = setup.resolution % (1 << (kMipLevels - 1)) == 0 ? kMipLevels : 1;
     gl::TextureDesc desc;
     desc.target = GL_TEXTURE_2D_ARRAY;
     desc.format = GL_RG32F;
@@ -286,6 +305,8 @@ Result<Photons> Photons::create(gl::Device& device, const PhotonSetup& setup) {
     s.sharp = gl::Texture::create(device, desc);
     s.deposits = gl::Buffer::create(device, (2 * side * side + 1) * sizeof(std::uint32_t), "photon deposits");
     s.commands = gl::Buffer::create(device, 3 * kMostPasses * sizeof(std::uint32_t), "caustic work groups");
+    s.secondUsed = gl::Buffer::create(device, SHOAL_MAX_LIGHT_SLOTS * sizeof(std::uint32_t), "layers that hold light");
+    s.secondUsed.clear(0);
     if (!s.maps || !s.sharp || !s.deposits || !s.commands) return internalError("no memory for caustic maps");
     s.waterBlock = gl::BlockBuffer<WaterBlock>::create(device, "water");
     s.causticBlock = gl::BlockBuffer<CausticBlock>::create(device, "caustics");
@@ -312,7 +333,7 @@ void Photons::render(const frame::Context& context, const PhotonParams& params, 
         const int fine = alone && disc >= kSeenDisc && disc < kWideDisc ? s.mostFine : 1;
         depositSlot(s, context, i, slot, photonsOf(slot, slots, params.photons), variantOf(slot, body, lights, air),
                     slope, fine);
-        resolveSlot(s, context, i, disc, fine);
+        resolveSlot(s, context, i, disc, fine, alone);
     }
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
 }
@@ -338,16 +359,22 @@ void Photons::resolve(const frame::Context& context, const Body& body, const Bod
     gl::bindImage(1, outputs.ambient ? outputs.ambient : outputs.direct, GL_WRITE_ONLY);
     const bool lamps =
         std::any_of(views.slots().begin(), views.slots().end(), [](const LightSlot& slot) { return slot.light >= 0; });
-    const gl::Program& all = *s.lookup[0][lamps][normals];
+    const bool few = !lamps && std::count_if(views.slots().begin(), views.slots().end(),
+                                             [](const LightSlot& slot) { return !slot.reflected; }) <= 2;
+    const gl::Program& all = few ? *s.lookupFew[normals] : *s.lookup[0][lamps][normals];
     const int tilesX = (context.view.width + all.localSize(0) - 1) / all.localSize(0);
     const int tilesY = (context.view.height + all.localSize(1) - 1) / all.localSize(1);
     const std::uint32_t none[8] = {0, 1, 1, 0, 0, 1, 1, 0};
-    const std::size_t bytes = sizeof none + std::size_t(tilesX) * std::size_t(tilesY) * sizeof(std::uint32_t);
-    if (s.tiles.bytes() < bytes) s.tiles = gl::Buffer::create(*s.device, bytes, "caustic tiles");
+    makeTileBuffers(s, std::size_t(tilesX) * std::size_t(tilesY), sizeof none);
     s.tiles.write(0, std::as_bytes(std::span(none)));
     s.tiles.bindStorage(SHOAL_STORAGE_WATER);
+    s.tileFlags.bindStorage(SHOAL_STORAGE_WATER + 1);
+    s.secondUsed.bindStorage(SHOAL_STORAGE_WATER + 2);
     all.set(0, outputs.ambient ? 1 : 0);
     all.dispatch(context.view.width, context.view.height);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    glProgramUniform2i(s.listTiles->name(), 0, tilesX, tilesY);
+    s.listTiles->dispatch(tilesX * tilesY);
     glMemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, s.tiles.name());
     for (const int list : {2, 1}) {

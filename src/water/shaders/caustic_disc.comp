@@ -10,7 +10,8 @@ layout(binding = 0) uniform sampler2DArray sharpMap;   // two layers
 layout(binding = 0, rg32f) uniform writeonly image2DArray maps;
 layout(location = 0) uniform ivec4 place;   // texels a side of the map; sharp texels a side of its texel; slot; levels
 
-const float kFewTexels = 1.5;   // radius from which the next coarser level is taken when it doubles
+layout(location = 1) uniform float fewTexels;   // radius from which the next coarser level is taken when it doubles
+
 const float kMostTexels = 6.0;  // radius at the coarsest level: a stretched disc is cut off there
 const float kLeastTexels = 0.5; // so that every line of a texel meets it
 
@@ -23,7 +24,7 @@ void main() {
     float travel = height < kNothingLit ? max(mean.w * (height - lightSpace.slots[slot].reach.z), 0.0) : 0.0;
     float across = lightSpace.slots[slot].irradiance.w * travel * lightSpace.slots[slot].place.w * float(place.y);
 
-    int level = clamp(int(floor(log2(max(across, 1e-3) / kFewTexels))), 0, place.w - 1);
+    int level = clamp(int(floor(log2(max(across, 1e-3) / fewTexels))), 0, place.w - 1);
     float shrink = exp2(-float(level));
     across = max(across * shrink, kLeastTexels);
     float along = min(across * disc.z, kMostTexels);

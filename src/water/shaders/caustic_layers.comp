@@ -6,8 +6,10 @@ layout(local_size_x = 1) in;
 
 layout(std430, binding = SHOAL_STORAGE_WATER) readonly buffer Deposits { uint deposits[]; };
 layout(std430, binding = SHOAL_STORAGE_WATER + 1) writeonly buffer Commands { uint groups[]; };
-layout(location = 0) uniform ivec2 place;   // the word that tells whether the second layer is used; commands
+layout(std430, binding = SHOAL_STORAGE_WATER + 2) writeonly buffer Layers { uint secondUsed[]; };
+layout(location = 0) uniform ivec3 place;   // the word that tells whether the second layer is used; commands; slot
 
 void main() {
+    secondUsed[place.z] = deposits[place.x];
     for (int i = 0; i < place.y; ++i) groups[3 * i + 2] = deposits[place.x] != 0u ? 2u : 1u;
 }

@@ -1,7 +1,7 @@
 #version 450 core
 // Light on each pixel's surface that came through the water's surface or was thrown up by it, from the caustic maps;
 // and the smooth light of sky and scattered sun under water. Variants: NO_NORMALS, normals are taken from the depth;
-// NO_LAMPS, the sun alone;
+// NO_LAMPS, the sun alone; FEW_SLOTS, two maps of it at most;
 // TILES, only tiles listed before: with surfaces behind others, and with WATERLINE those near it too; without it all
 // pixels as if no wave were high, the surface threw no light up and nothing lay behind anything: tiles where that does
 // not hold are listed.
@@ -14,10 +14,6 @@
 
 layout(local_size_x = 16, local_size_y = 8) in;
 
-#ifndef TILES
-shared uint shallow, deeper;   // 1: the tile has surfaces near the waterline, behind others
-#endif
-
 layout(binding = 0) uniform sampler2D viewDepthTexture;
 #ifndef NO_NORMALS
 layout(binding = 1) uniform sampler2D normalTexture;
@@ -26,13 +22,23 @@ layout(binding = SHOAL_UNIT_CAUSTIC_MAPS) uniform sampler2DArray causticMaps;
 layout(binding = 0, rgba16f) uniform writeonly image2D directImage;
 layout(binding = 1, rgba16f) uniform writeonly image2D ambientImage;
 layout(location = 0) uniform bool ambientWanted;
-// Groups of two dispatches over listed tiles, then the tiles (x, y in 16 bits each): near the waterline from the start,
-// behind something from the end.
-layout(std430, binding = SHOAL_STORAGE_WATER) buffer Tiles { uint tileGroups[8]; uint tiles[]; };
+#ifdef TILES
+// Lists of tiles (caustic_tiles.comp): near the waterline from the start, behind something from the end.
+layout(std430, binding = SHOAL_STORAGE_WATER) readonly buffer Tiles { uint tileGroups[8]; uint tiles[]; };
+// Slots whose second layer holds light.
+layout(std430, binding = SHOAL_STORAGE_WATER + 2) readonly buffer Layers { uint secondUsed[SHOAL_MAX_LIGHT_SLOTS]; };
+#else
+// Two words a tile: not 0 where it has surfaces near the waterline, behind others.
+layout(std430, binding = SHOAL_STORAGE_WATER + 1) writeonly buffer TileFlags { uint tileFlags[]; };
+#endif
 
 const float kSkyTransmittance = 0.934;   // of light from all of the sky through level water
 const float kFromBelow = 0.05;           // of downwelling light comes back from below
-const int kMostCascades = 4;              // slots of one group
+#ifdef FEW_SLOTS
+const int kMostCascades = 2;              // slots of one group
+#else
+const int kMostCascades = 4;
+#endif
 const float kRimTexels = 8.0;            // over which a slot's map turns into the next one
 const float kGapM = 0.03;                // a surface and its own depth map differ by no more, apart from its slope
 
@@ -112,7 +118,7 @@ float mapValue(vec2 s, float height, float slope, float pixelM, int group, int s
         ivec2 map2 = ivec2((i & 1) == 0 ? a.x : b.x, i < 2 ? a.y : b.y);
         float depth = texelFetch(litDepth, ivec3(at2, layer + 1), 0).x;
         bool farther = depth > 0.0 && side * (height - heightOfDepth(depth, heights)) > tolerance;
-        sum += farther ? 0.0 : w[i] * texelFetch(causticMaps, ivec3(shelf + ivec2(map2), layer + 1), 0).x;
+        sum += farther || secondUsed[slot] == 0u ? 0.0 : w[i] * texelFetch(causticMaps, ivec3(shelf + ivec2(map2), layer + 1), 0).x;
         if (i == 3) w = vec4(0.0);
     }
 #endif
@@ -218,16 +224,9 @@ void main() {
     float sunFacing = max(dot(normal, waterBlock.sunRefracted.xyz) / waterBlock.sunRefracted.y, 0.0);
     if (under) direct += onLevel * beam * (sunLeft * sunFacing);
 #ifndef TILES
-    // One thread asks for its tile.
-    if (gl_LocalInvocationIndex == 0u) shallow = 0u, deeper = 0u;
-    barrier();
-    if (there && p.y > waterBlock.shape.x - waterBlock.shape.w) shallow = 1u;
-    if (behind) deeper = 1u;
-    barrier();
-    uint tile = uint(corner.x) | uint(corner.y) << 16;
-    if (gl_LocalInvocationIndex == 0u && shallow != 0u) tiles[atomicAdd(tileGroups[0], 1u)] = tile;
-    if (gl_LocalInvocationIndex == 0u && shallow == 0u && deeper != 0u)
-        tiles[tiles.length() - 1 - int(atomicAdd(tileGroups[4], 1u))] = tile;
+    int tile = 2 * (corner.y * int(gl_NumWorkGroups.x) + corner.x);
+    if (there && p.y > waterBlock.shape.x - waterBlock.shape.w) tileFlags[tile] = 1u;
+    if (behind) tileFlags[tile + 1] = 1u;
 #endif
     if (!inside) return;
     imageStore(directImage, pixel, vec4(direct, under ? 1.0 : 0.0));

@@ -31,12 +31,6 @@ float litHeight(ivec2 texel, int slot, int layer) {
     return depth > 0.0 && inside ? heightOfDepth(depth, lightSpace.slots[slot].height) : kNothingLit;
 }
 
-// The same where nothing is as something endlessly far along the light's way.
-float litHeightOrFar(ivec2 texel, int slot, int layer) {
-    float height = litHeight(texel, slot, layer);
-    return height < kNothingLit ? height : lightSpace.slots[slot].mean.w * 1e9;
-}
-
 // Where a world point of the surface lies in the air layer, texels: slid along the light's way in the air.
 vec2 airTexelOf(vec3 p, int slot) {
     vec4 toLight = lightSpace.slots[slot].toLight;

@@ -51,9 +51,11 @@ void main() {
     ivec2 low = ivec2(gl_GlobalInvocationID.xy), size = imageSize(sourceImage);
     if (any(greaterThanEqual(low, size))) return;
     ivec2 last = textureSize(shaftViewDepth, 0) - 1;
-    WaterPath path = shaftPathOf(min(ivec2((vec2(low) + 0.5) * shaftBlock.march.y), last));
+    ivec2 at = min(ivec2((vec2(low) + 0.5) * shaftBlock.march.y), last);
+    WaterPath path = shaftPathOf(at);
+    SeenPath seen = seenPathOf(at);
 
-    vec3 decay = beamDecay(path.direction);
+    vec3 decay = beamDecay(path.direction.y);
     vec3 apart = mix(decay, vec3(2e-3), lessThan(abs(decay), vec3(2e-3)));   // weights are differences
     float least = min(apart.x, min(apart.y, apart.z));
     float reach = min(path.lengthM, least > 0.0 ? kFarthest / least : 1e30);
@@ -84,12 +86,12 @@ void main() {
     }
     vec3 ratio = steps > 0 ? sum / (vec3(1.0) - left) : vec3(0.0);
 
-    vec3 even = decayOver(decay, path.lengthM);
-    vec3 diffuse = veilingLight(depth0, path.direction, path.lengthM);
+    vec3 light = levelWaterBeam(depth0, path.direction) * min(ratio, vec3(1000.0)) * decayOver(decay, path.lengthM);
+    light += veilingLight(depth0, path.direction, path.lengthM);
 #ifdef LAMPS
-    diffuse += lampsInWater(path.start, path.direction, path.lengthM, jitter);
-    diffuse += lampsAbove(path.start, path.direction, path.lengthM, vec3(jitter, random.yz));
+    light += lampsInWater(path.start, path.direction, path.lengthM, jitter);
+    light += lampsAbove(path.start, path.direction, path.lengthM, vec3(jitter, random.yz));
 #endif
-    vec3 source = levelWaterBeam(depth0, path.direction) * min(ratio, vec3(1000.0)) + diffuse / max(even, vec3(1e-6));
-    imageStore(sourceImage, low, vec4(source, seenLength(path.lengthM)));
+    vec3 even = decayOver(beamDecay(seen.directionY), seen.lengthM);
+    imageStore(sourceImage, low, vec4(light / max(even, vec3(1e-6)), seenLength(seen.lengthM)));
 }

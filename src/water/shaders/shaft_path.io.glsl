@@ -25,4 +25,28 @@ WaterPath shaftPathOf(ivec2 at) {
 #endif
 }
 
+// What a path's light falls off by, in few steps: the full picture asks for it at every pixel. Below waves a ray goes
+// on here as below level water; marching divides by the same.
+struct SeenPath {
+    float lengthM;      // metres
+    float directionY;   // of the unit direction away from the eye
+};
+
+SeenPath seenPathOf(ivec2 at) {
+    SeenPath seen;
+#ifdef PATHS
+    vec4 traced = texelFetch(waterPathTexture, at, 0);
+    vec3 ray = rayOfPixel(vec2(at) + 0.5).step;
+    float y = ray.y * inversesqrt(dot(ray, ray)), index = waterBlock.shape.y;
+    bool bent = traced.w < 0.0 || traced.x != 0.0 || traced.y != 0.0;
+    seen.directionY = bent ? -sqrt(1.0 - (1.0 - y * y) / (index * index)) : y;
+    seen.lengthM = traced.z;
+#else
+    WaterPath path = shaftPathOf(at);
+    seen.directionY = path.direction.y;
+    seen.lengthM = path.lengthM;
+#endif
+    return seen;
+}
+
 #endif

@@ -30,10 +30,10 @@ float shaftPhase(float cosTheta) {
 #endif
 }
 
-// How fast the beam's scattered light falls along a path in `direction`, away from the eye: dimmed on its way down to
-// the path and back along it, 1/m.
-vec3 beamDecay(vec3 direction) {
-    return waterBlock.beamAttenuation.rgb * (1.0 + direction.y / waterBlock.sunRefracted.y);
+// How fast the beam's scattered light falls along a path away from the eye, from the y of its unit direction: dimmed on
+// its way down to the path and back along it, 1/m.
+vec3 beamDecay(float directionY) {
+    return waterBlock.beamAttenuation.rgb * (1.0 + directionY / waterBlock.sunRefracted.y);
 }
 
 // W/(m3 sr) that the sun's beam scatters along a path at its start; depth: of that below the level.
@@ -54,7 +54,7 @@ vec3 veilingLight(float depth, vec3 direction, float lengthM) {
     float cosMean = -waterBlock.sunRefracted.y;
     vec3 level = waterBlock.sunIrradiance.rgb * (waterBlock.toSun.y * waterBlock.sunRefracted.w);
     vec3 all = exp(-kdSun * depth) * decayOver(beam - kdSun * direction.y, lengthM);
-    vec3 sharp = exp(-beam * (depth / cosMean)) * decayOver(beamDecay(direction), lengthM);
+    vec3 sharp = exp(-beam * (depth / cosMean)) * decayOver(beamDecay(direction.y), lengthM);
     // Where diffuse attenuation is the stronger one there is no such light at any depth.
     vec3 smoothed = mix(max(all - sharp, vec3(0.0)), vec3(0.0), greaterThanEqual(kdSun, beam / cosMean));
     return waterBlock.beamScattering.rgb * (sky + level * smoothed) * (kInverse4Pi / kMeanCosine);

@@ -15,7 +15,7 @@ const float kLeastWeight = 1e-4; // so that the nearest pixels count where no pa
 void main() {
     ivec2 at = ivec2(gl_GlobalInvocationID.xy), size = imageSize(inscatterImage);
     if (any(greaterThanEqual(at, size))) return;
-    WaterPath path = shaftPathOf(at);
+    SeenPath path = seenPathOf(at);
 
     // A small pixel stands at the full pixel that was marched for it.
     vec2 place = (vec2(at) + 0.5 - shaftBlock.small.x) / shaftBlock.march.y - 0.5;
@@ -34,5 +34,6 @@ void main() {
     vec4 weight = (vec4(g.x, f.x, g.x, f.x) * vec4(g.y, g.y, f.y, f.y) + 1e-3) * alike;
     weight *= mix(vec4(1e-6), vec4(1.0), greaterThan(lengths, vec4(0.0)));
     vec3 source = mat4x3(a.rgb, b.rgb, c.rgb, d.rgb) * weight / dot(weight, vec4(1.0));
-    imageStore(inscatterImage, at, vec4(max(source, vec3(0.0)) * decayOver(beamDecay(path.direction), path.lengthM), 1.0));
+    vec3 even = decayOver(beamDecay(path.directionY), path.lengthM);
+    imageStore(inscatterImage, at, vec4(max(source, vec3(0.0)) * even, 1.0));
 }
