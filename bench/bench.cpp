@@ -21,7 +21,7 @@ const std::vector<Benchmark>& benchmarks() {
     static const std::vector<Benchmark> all = [] {
         std::vector<Benchmark> every;
         for (const auto& some : {frameBenchmarks(), waterTruthBenchmarks(), waterShaftBenchmarks(),
-                                 waterSceneBenchmarks(), waterSpeedBenchmarks()})
+                                 waterSceneBenchmarks(), waterSpeedBenchmarks(), viewBenchmarks()})
             every.insert(every.end(), some.begin(), some.end());
         return every;
     }();

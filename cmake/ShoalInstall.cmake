@@ -26,4 +26,9 @@ endif()
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/scenes" DESTINATION "${CMAKE_INSTALL_DATADIR}/shoal" COMPONENT tool OPTIONAL)
 # What `shoal bench` measures errors on.
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/tests/scenes/" DESTINATION "${CMAKE_INSTALL_DATADIR}/shoal/checks" COMPONENT tool OPTIONAL)
+# The viewer's letters, for machines that have no fonts of their own.
+foreach(font IN ITEMS DejaVuSans.ttf DejaVuSansMono.ttf)
+    install(FILES "/usr/share/fonts/truetype/dejavu/${font}" DESTINATION "${CMAKE_INSTALL_DATADIR}/shoal/fonts"
+        COMPONENT tool OPTIONAL)
+endforeach()
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT tool)

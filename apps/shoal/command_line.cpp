@@ -8,6 +8,7 @@
 #include <shoal/pipeline/pipeline.h>
 #include <shoal_build_info.h>
 
+#include "completion.h"
 #include "verbs.h"
 
 namespace shoal::app {
@@ -70,6 +71,26 @@ void addRender(CLI::App& app, RenderOptions& o) {
                  "camera.fovDeg=40\n");
 }
 
+void addView(CLI::App& app, ViewOptions& o) {
+    CLI::App* verb = app.add_subcommand("view", "Shows a scene or models in a window: look, turn, change, save");
+    verb->add_option("file", o.files,
+                     "scene (.toml), or models (.glb, .gltf, .obj, ...) and an environment (.hdr, .exr); default: a "
+                     "shipped scene");
+    verb->add_option("--set", o.sets, "key=value: overrides a value of the scene; may be repeated")
+        ->take_all()
+        ->expected(1);
+    verb->add_option("--size", o.size, "WIDTHxHEIGHT of the window; default 1280x720");
+    verb->add_option("--ui-scale", o.uiScale, "size of text and panels, 0.5 .. 4; default: as the screen says")
+        ->check(CLI::Range(0.5, 4.0));
+    verb->add_option("--device", o.device, "auto, or cpu for the software renderer")
+        ->check(CLI::IsMember({"auto", "cpu"}));
+    verb->add_option("--script", o.script, "does what this file says instead of a person (docs/viewer.md)");
+    verb->add_flag("--debug", o.debug, "OpenGL debug messages to stderr");
+    verb->footer(
+        "\nF1 in the window lists the keys.\n\nExamples:\n  shoal view scenes/plaza.toml\n"
+        "  shoal view scenes/plaza.toml --set post.exposureEv=1 --size 960x540\n");
+}
+
 void addInfo(CLI::App& app, InfoOptions& o) {
     CLI::App* verb = app.add_subcommand("info", "Tells what is in a file, or what can draw on this machine");
     verb->add_option("file", o.files, "models, scenes, pictures, assets, camera poses");
@@ -91,6 +112,49 @@ void addCompare(CLI::App& app, CompareOptions& o) {
     verb->add_option("-o,--difference", o.differenceFile, "writes the absolute difference as a picture (.png, .exr)");
     verb->add_option("--gain", o.gain, "times the difference in that picture; default 4");
     verb->footer("\nExample:\n  shoal compare a.png b.png --max-rmse 0.01 -o difference.png\n");
+}
+
+void addCompletion(CLI::App& app, std::string& shell) {
+    CLI::App* verb = app.add_subcommand("completion", "Prints what makes a shell complete verbs and options");
+    verb->add_option("shell", shell, "bash, zsh or fish")->required();
+    verb->footer("\nExample:\n  shoal completion bash\n");
+}
+
+// The words an option may be, for those that have few.
+std::vector<std::string> wordsOf(const std::string& option) {
+    if (option == "--device") return {"auto", "gpu", "cpu"};
+    if (option == "--antialiasing") return {"none", "supersample", "temporal"};
+    if (option == "--up") return {"y", "z"};
+    if (option != "--aov") return {};
+    std::vector<std::string> words = {"all"};
+    for (const pipeline::AovInfo& aov : pipeline::aovs()) words.push_back(aov.name);
+    return words;
+}
+
+std::vector<VerbWords> wordsOf(const CLI::App& app) {
+    std::vector<VerbWords> verbs;
+    for (const CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; })) {
+        VerbWords words{verb->get_name(), verb->get_description(), {}};
+        for (const CLI::Option* option : verb->get_options()) {
+            if (option->get_positional()) continue;
+            OptionWords one{{}, option->get_description(), option->get_items_expected_max() > 0, {}};
+            for (const std::string& name : option->get_lnames()) {
+                one.names.push_back("--" + name);
+                one.values = wordsOf("--" + name);
+            }
+            for (const std::string& name : option->get_snames()) one.names.push_back("-" + name);
+            words.options.push_back(std::move(one));
+        }
+        verbs.push_back(std::move(words));
+    }
+    return verbs;
+}
+
+int completion(const std::string& shell, const CLI::App& app) {
+    const auto script = completionScript(shell, wordsOf(app));
+    if (!script) return report(script.error());
+    std::fputs(script->c_str(), stdout);
+    return kDone;
 }
 
 void addReference(CLI::App& app, ReferenceVerbOptions& o) {
@@ -202,17 +266,21 @@ int runCommandLine(int argc, char** argv) {
         "unwritable output,\n"
         "4 no usable device.\n\nExample:\n  shoal render scenes/plaza.toml -o plaza.png\n");
     RenderOptions renderOptions;
+    ViewOptions viewOptions;
     InfoOptions infoOptions;
     CompareOptions compareOptions;
     ReferenceVerbOptions referenceOptions;
     DemoOptions demoOptions;
     BenchOptions benchOptions;
     addRender(app, renderOptions);
+    addView(app, viewOptions);
     addInfo(app, infoOptions);
     addCompare(app, compareOptions);
     addReference(app, referenceOptions);
     addDemo(app, demoOptions);
     addBench(app, benchOptions);
+    std::string shell;
+    addCompletion(app, shell);
 
     if (argc < 2) {
         std::fputs(app.help().c_str(), stderr);
@@ -229,11 +297,13 @@ int runCommandLine(int argc, char** argv) {
     }
     const std::string verb = app.get_subcommands().empty() ? "" : app.get_subcommands()[0]->get_name();
     if (verb == "render") return render(renderOptions);
+    if (verb == "view") return view(viewOptions);
     if (verb == "info") return info(infoOptions);
     if (verb == "compare") return compare(compareOptions);
     if (verb == "reference") return reference(referenceOptions);
     if (verb == "demo") return demo(demoOptions);
     if (verb == "bench") return bench(benchOptions);
+    if (verb == "completion") return completion(shell, app);
     std::fputs(app.help().c_str(), stderr);
     return kUsage;
 }

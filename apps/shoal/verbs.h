@@ -30,6 +30,14 @@ struct RenderOptions {
 };
 int render(const RenderOptions& options);
 
+struct ViewOptions {
+    std::vector<std::string> files, sets;
+    std::string size = "1280x720", device = "auto", script;
+    float uiScale = 0;  // 0: as the screen says
+    bool debug = false;
+};
+int view(const ViewOptions& options);
+
 struct InfoOptions {
     std::vector<std::string> files;
     bool devices = false, keys = false;

@@ -48,8 +48,10 @@ void CommandList::build(gl::Device& device, std::span<const Draw> draws, Order o
         if (runs_.empty() || runs_.back().batch != item.batch)
             runs_.push_back({item.batch, std::uint32_t(commands_.size()), 0});
         ++runs_.back().count;
-        commands_.push_back({d.indexCount, 1, d.firstIndex, std::int32_t(d.baseVertex), item.draw});
-        triangles_ += d.indexCount / 3;
+        const std::uint32_t count = item.coarse ? d.coarseCount : d.indexCount;
+        commands_.push_back(
+            {count, 1, item.coarse ? d.firstCoarse : d.firstIndex, std::int32_t(d.baseVertex), item.draw});
+        triangles_ += count / 3;
     }
 
     // Room for every draw in every view: what follows allocates nothing while the scene stays the same.

@@ -26,6 +26,8 @@ struct BatchKey {
 struct Draw {
     int instance = 0, node = 0;
     std::uint32_t firstIndex = 0, indexCount = 0, baseVertex = 0;
+    std::uint32_t firstCoarse = 0, coarseCount = 0;  // of a draft; 0: none
+    float coarseShare = 0;                           // how far off its vertices are, in sizes of the mesh
     int material = 0;
     int batch = 0, depthBatch = 0;
     Box box;  // world
@@ -65,6 +67,7 @@ public:
         std::uint32_t draw = 0;
         int batch = 0;
         float distance = 0;  // along the view axis to the nearest corner of the box
+        bool coarse = false;
     };
     std::vector<Item>& items() { return items_; }  // cleared and filled by the caller
     enum class Order { batchesFrontToBack, backToFront };

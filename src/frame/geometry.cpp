@@ -97,6 +97,8 @@ void State::addDraws(int index) {
             draw.instance = index;
             draw.node = int(n);
             draw.firstIndex = p.firstIndex, draw.indexCount = p.indexCount, draw.baseVertex = p.firstVertex;
+            draw.firstCoarse = p.firstCoarse, draw.coarseCount = p.coarseCount;
+            if (p.coarseCount > 0) draw.coarseShare = p.coarseCell / std::max(length(p.bounds.size()), 1e-20f);
             draw.material = p.material;
             hasTransparent |= materials.at(p.material).transparent;
             draws.push_back(draw);
@@ -183,6 +185,8 @@ void Geometry::setVisible(InstanceId id, bool visible) {
     instance.desc.visible = visible;
     instance.visibilityChanged = !instance.visibilityChanged;
 }
+
+void Geometry::setDraftsWanted(bool wanted) { state_->meshes.wantsCoarse = wanted; }
 
 void Geometry::clear() {
     State& s = *state_;

@@ -12,6 +12,8 @@ using State = Geometry::State;
 
 // Casters smaller than this many texels in a shadow map leave no shadow.
 constexpr float kLeastCasterTexels = 0.75f;
+// Drafts leave out what is smaller, and take coarse triangles where those are off by less.
+constexpr float kLeastDraftPx = 1, kMostCoarsePx = 2.5f;
 
 void setRaster(bool depthWrite, bool blend) {
     glEnable(GL_DEPTH_TEST);
@@ -47,7 +49,7 @@ void drawRun(const CommandList& commands, const DrawRun& run) {
 }  // namespace
 
 void State::collect(const Mat4& clipFromWorld, const Mat4& viewFromWorld, bool depth, bool transparentOnes,
-                    float leastSize) {
+                    float leastSize, DraftView draft) {
     const Frustum frustum(clipFromWorld);
     const Vec3 axis{-viewFromWorld(2, 0), -viewFromWorld(2, 1), -viewFromWorld(2, 2)};
     const float origin = -viewFromWorld(2, 3);
@@ -61,8 +63,16 @@ void State::collect(const Mat4& clipFromWorld, const Mat4& viewFromWorld, bool d
         const Vec3 h = draw.box.half;
         const float reach = std::abs(axis.x) * h.x + std::abs(axis.y) * h.y + std::abs(axis.z) * h.z;
         const float center = dot(axis, draw.box.center) + origin;
-        items.push_back(
-            {std::uint32_t(d), depth ? draw.depthBatch : draw.batch, transparentOnes ? center : center - reach});
+        bool coarse = false;
+        if (draft.pixelsPerMetre > 0) {
+            const float perMetre =
+                draft.orthographic ? draft.pixelsPerMetre : draft.pixelsPerMetre / std::max(center - reach, 1e-3f);
+            const float sizePx = 2 * length(h) * perMetre;
+            if (sizePx < kLeastDraftPx) continue;
+            coarse = draw.coarseCount > 0 && draw.coarseShare * sizePx < kMostCoarsePx;
+        }
+        items.push_back({std::uint32_t(d), depth ? draw.depthBatch : draw.batch,
+                         transparentOnes ? center : center - reach, coarse});
     }
     commands.build(*device, draws,
                    transparentOnes ? CommandList::Order::backToFront : CommandList::Order::batchesFrontToBack);
@@ -78,7 +88,10 @@ void Geometry::drawSurfaces(const Context& context, const GBuffer& target) {
     State& s = *state_;
     const gl::PassScope pass(context.timer, "draw surfaces");
     const ViewBlock block = makeViewBlock(context);
-    s.collect(block.clipFromWorld, block.viewFromWorld, false, false, 0);
+    DraftView draft;
+    if (context.draft)
+        draft = {0.5f * context.view.clipFromView(1, 1) * float(context.view.height), context.view.orthographic};
+    s.collect(block.clipFromWorld, block.viewFromWorld, false, false, 0, draft);
     s.stats.drawnTriangles = s.commands.triangleCount();
     s.stats.draws = std::int64_t(s.commands.commands().size());
     s.stats.instances = std::int64_t(s.instances.size());

@@ -35,6 +35,12 @@ struct GeometryInstance {
     Bounds bounds;  // world, of its draws
 };
 
+// What a draft's level of detail goes by.
+struct DraftView {
+    float pixelsPerMetre = 0;  // at a distance of 1 m; 0: no draft
+    bool orthographic = false;
+};
+
 struct Geometry::State {
     State(gl::Device& d, MaterialStore materialStore, Skinner skinning)
         : device(&d), materials(std::move(materialStore)), skinner(std::move(skinning)) {}
@@ -78,7 +84,7 @@ struct Geometry::State {
     void update(const Context& context);
     // geometry_draw.cpp
     void collect(const Mat4& clipFromWorld, const Mat4& viewFromWorld, bool depth, bool transparentOnes,
-                 float leastSize);
+                 float leastSize, DraftView draft = {});
     void bindShared() const;
 };
 

@@ -6,6 +6,7 @@
 
 #include <shoal/core/parallel.h>
 
+#include "frame/coarse_mesh.h"
 #include "frame/glsl_math.h"
 
 namespace shoal::frame {
@@ -79,13 +80,27 @@ void packMorphs(const Primitive& p, GpuPrimitive& gpu, Packed& to) {
     }
 }
 
-GpuPrimitive packPrimitive(const Primitive& p, std::size_t first, Packed& to) {
+// Cells along a mesh: one is a pixel or two where a draft takes it.
+constexpr int kCoarseCells = 14;
+constexpr std::size_t kLeastCoarse = 3 * 48;  // indices
+
+void packCoarse(const Primitive& p, GpuPrimitive& gpu, Packed& to) {
+    if (p.indices.size() < kLeastCoarse) return;
+    const CoarseMesh coarse = coarseMesh(p.positions, p.normals, p.indices, kCoarseCells);
+    gpu.firstCoarse = std::uint32_t(to.indices.size());
+    gpu.coarseCount = std::uint32_t(coarse.indices.size());
+    gpu.coarseCell = coarse.cell;
+    to.indices.insert(to.indices.end(), coarse.indices.begin(), coarse.indices.end());
+}
+
+GpuPrimitive packPrimitive(const Primitive& p, std::size_t first, bool wantsCoarse, Packed& to) {
     GpuPrimitive gpu;
     gpu.firstVertex = std::uint32_t(first);
     gpu.vertexCount = std::uint32_t(p.vertexCount());
     gpu.firstIndex = std::uint32_t(to.indices.size());
     gpu.indexCount = std::uint32_t(p.indices.size());
     to.indices.insert(to.indices.end(), p.indices.begin(), p.indices.end());
+    if (wantsCoarse) packCoarse(p, gpu, to);
     packVertices(p, first, to);
     for (const Vec3& v : p.positions) gpu.bounds.add(v);
     gpu.skinned = !p.joints.empty() && !p.weights.empty();
@@ -214,7 +229,7 @@ Result<GpuModel> MeshStore::add(gl::Device& device, const Model& model, int firs
         std::vector<GpuPrimitive>& primitives = gpu.meshes.emplace_back();
         const Shell shell = shellOf(mesh);
         for (const Primitive& p : mesh.primitives) {
-            primitives.push_back(packPrimitive(p, next, packed));
+            primitives.push_back(packPrimitive(p, next, wantsCoarse, packed));
             primitives.back().shell = shell;
             primitives.back().material = p.material < 0 ? 0 : firstMaterial + p.material;
             next += p.vertexCount();
@@ -237,8 +252,8 @@ Result<GpuModel> MeshStore::add(gl::Device& device, const Model& model, int firs
     SHOAL_TRY_ASSIGN(const std::uint32_t firstMorph, appendAll(device, morphs, packed.morphs));
     for (std::vector<GpuPrimitive>& primitives : gpu.meshes)
         for (GpuPrimitive& p : primitives)
-            p.firstVertex += firstVertex, p.firstIndex += firstIndex, p.firstInfluence += firstInfluence,
-                p.firstMorph += firstMorph;
+            p.firstVertex += firstVertex, p.firstIndex += firstIndex, p.firstCoarse += firstIndex,
+                p.firstInfluence += firstInfluence, p.firstMorph += firstMorph;
     return gpu;
 }
 

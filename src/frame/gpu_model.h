@@ -53,6 +53,8 @@ bool shadowsByFrontFaces(const Shell& shell, const Mat4& worldFromModel);
 
 struct GpuPrimitive {
     std::uint32_t firstIndex = 0, indexCount = 0;
+    std::uint32_t firstCoarse = 0, coarseCount = 0;  // indices of a draft; 0: none
+    float coarseCell = 0;                            // how far a draft's vertices are off, mesh space
     std::uint32_t firstVertex = 0, vertexCount = 0;
     int material = 0;  // of the store
     Bounds bounds;     // bind pose
@@ -75,6 +77,7 @@ struct MeshStore {
         indices{"indices"};
     GrowBuffer influences{"joints and weights"}, morphs{"morph offsets"};
     bool hasUv1 = false;
+    bool wantsCoarse = false;  // of what is added from now on
     std::size_t vertexCount() const { return positions.used() / sizeof(Vec3); }
 
     // Packs and uploads. Errors: storage beyond 2 GiB, no graphics memory.

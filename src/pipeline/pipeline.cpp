@@ -13,6 +13,7 @@
 #include <shoal/frame/targets.h>
 
 #include "pipeline/aov.h"
+#include "pipeline/draft_shadows.h"
 #include "pipeline/water_pass.h"
 
 namespace shoal::pipeline {
@@ -32,6 +33,9 @@ struct Loaded {
     frame::ShadowSetup shadowSetup;
     std::optional<frame::Geometry> geometry;
     std::optional<frame::Shadows> shadows;
+    std::optional<DraftShadows> draft;         // what drafts are shaded with in their place
+    float shadowTime = 0;                      // of the last frame that was no draft
+    bool drewDraft = false;                    // the last frame was one
     std::vector<frame::InstanceId> instances;  // one a content instance
     bool moves = false;                        // whether any instance walks
     std::unique_ptr<WaterPass> water;          // null: none
@@ -133,6 +137,7 @@ struct Pipeline::State {
     light::View view;
     bool hasView = false;
     std::uint32_t frameCount = 0;
+    bool draftsWanted = false;
 
     State(gl::Device& device, frame::Lighting lighting, frame::Post post)
         : device(device), timer(device), lighting(std::move(lighting)), post(std::move(post)) {}
@@ -141,9 +146,10 @@ struct Pipeline::State {
     frame::Context makeContext(const FrameRequest& request);
     void moveInstances(float time);
     void drawNeededViews(const frame::Context& context);
+    frame::Shadows& shadowsOf(const frame::Context& context);
     void drawSample(const frame::Context& context);
     frame::Lights lights() const;
-    WaterScene waterScene();
+    WaterScene waterScene(const frame::Context& context);
     bool wantsTerms() const;
 };
 
@@ -168,6 +174,7 @@ frame::Context Pipeline::State::makeContext(const FrameRequest& request) {
     context.timeStep = request.frameIndex == 0 ? 0 : request.timeStep;
     context.frameIndex = ++frameCount;  // request.frameIndex may be the same twice: two stills
     context.previousView = context.view;
+    context.draft = request.draft;
     if (request.frameIndex > 0) {
         if (!request.camera)
             context.previousView = viewAt(request.time - request.timeStep);
@@ -187,11 +194,22 @@ void Pipeline::State::moveInstances(float time) {
     }
 }
 
+frame::Shadows& Pipeline::State::shadowsOf(const frame::Context& context) {
+    return context.draft && loaded->draft ? loaded->draft->shadows() : *loaded->shadows;
+}
+
 void Pipeline::State::drawNeededViews(const frame::Context& context) {
+    // What moved while the other set of maps was in use is not known to have moved.
+    const bool draft = context.draft && loaded->draft;
+    const bool switched = draft != loaded->drewDraft;
+    loaded->drewDraft = draft;
+    if (draft) return loaded->draft->draw(context, loaded->shadowParams, lights(), *loaded->geometry, switched);
+    const bool stale = switched && loaded->shadowTime != context.time;
+    loaded->shadowTime = context.time;
     loaded->shadows->prepare(context, loaded->shadowParams, loaded->content.sun ? &*loaded->content.sun : nullptr,
                              loaded->content.lights, loaded->geometry->bounds());
     for (frame::NeededView& needed : loaded->shadows->neededViews()) {
-        if (needed.unchanged && !loaded->geometry->changed(needed.view)) continue;
+        if (needed.unchanged && !stale && !loaded->geometry->changed(needed.view)) continue;
         loaded->geometry->drawDepth(context, needed);
     }
 }
@@ -202,8 +220,8 @@ frame::Lights Pipeline::State::lights() const {
     return lights;
 }
 
-WaterScene Pipeline::State::waterScene() {
-    return {*loaded->geometry, lighting, *loaded->shadows, loaded->lightingParams, lights()};
+WaterScene Pipeline::State::waterScene(const frame::Context& context) {
+    return {*loaded->geometry, lighting, shadowsOf(context), loaded->lightingParams, lights()};
 }
 
 bool Pipeline::State::wantsTerms() const {
@@ -220,10 +238,10 @@ void Pipeline::State::drawSample(const frame::Context& context) {
     geometry.drawSurfaces(context, targets->gbuffer());
     targets->finishSurfaces(context);
     frame::LightOverrides overrides;
-    if (loaded->water) overrides = loaded->water->light(context, waterScene(), *targets);
+    if (loaded->water) overrides = loaded->water->light(context, waterScene(context), *targets);
     lighting.prepare(context, loaded->lightingParams, lights(), *targets);
-    lighting.shade(context, loaded->lightingParams, *loaded->shadows, overrides, *targets);
-    if (loaded->water) loaded->water->draw(context, waterScene(), *targets);
+    lighting.shade(context, loaded->lightingParams, shadowsOf(context), overrides, *targets);
+    if (loaded->water) loaded->water->draw(context, waterScene(context), *targets);
     if (!geometry.hasTransparent()) return;
     {
         gl::PassScope pass(&timer, "copy opaque");
@@ -231,7 +249,7 @@ void Pipeline::State::drawSample(const frame::Context& context) {
     }
     targets->forward().bind();
     lighting.bind();
-    loaded->shadows->bind();
+    shadowsOf(context).bind();
     geometry.drawTransparent(context, targets->opaqueCopy(), targets->gbuffer().viewDepth);
 }
 
@@ -258,8 +276,13 @@ Result<void> Pipeline::setScene(const scene::Scene& scene, scene::Content conten
     loaded->scene = scene;
     loaded->content = std::move(content);
     SHOAL_TRY_ASSIGN(loaded->geometry, frame::Geometry::create(state_->device));
+    loaded->geometry->setDraftsWanted(state_->draftsWanted);
     SHOAL_TRY_ASSIGN(loaded->shadows, frame::Shadows::create(state_->device, loaded->shadowSetup));
     SHOAL_TRY(addInstances(*loaded));
+    if (state_->draftsWanted) {
+        const Bounds& focus = loaded->content.focus.empty() ? loaded->content.bounds : loaded->content.focus;
+        SHOAL_TRY_ASSIGN(loaded->draft, DraftShadows::create(state_->device, loaded->shadowSetup, focus));
+    }
     SHOAL_TRY_ASSIGN(std::optional<WaterSpec> water, readWater(scene));
     if (water) {
         const Vec3 sky = skyIrradiance(loaded->content, loaded->lightingParams.environmentIntensity);
@@ -272,6 +295,47 @@ Result<void> Pipeline::setScene(const scene::Scene& scene, scene::Content conten
     SHOAL_TRY(state_->lighting.setEnvironment(loaded->content.environment ? *loaded->content.environment : black));
     state_->loaded = std::move(loaded);
     state_->hasView = false;
+    return {};
+}
+
+Result<void> Pipeline::updateScene(const scene::Scene& scene) {
+    SHOAL_ASSERT_MSG(state_->loaded, "setScene comes before updateScene");
+    Loaded& loaded = *state_->loaded;
+    SHOAL_TRY(refuseUnbuilt(scene));
+    frame::ShadowParams shadows;
+    frame::LightingParams lighting;
+    frame::PostParams post;
+    SHOAL_TRY(bindNamed(scene, "shadows", shadows));
+    SHOAL_TRY(bindNamed(scene, "lighting", lighting));
+    SHOAL_TRY(bindNamed(scene, "post", post));
+    SHOAL_TRY_ASSIGN(std::optional<WaterSpec> water, readWater(scene));
+    const bool relit = !scene::sameLights(scene, loaded.scene);
+    const auto relight = [&](const scene::Scene& by) -> Result<void> {
+        scene::Content& content = loaded.content;
+        SHOAL_TRY(scene::reloadLights(by, content));
+        light::Environment black;
+        black.radiance = Image(8, 4, 3);
+        return state_->lighting.setEnvironment(content.environment ? *content.environment : black);
+    };
+    if (relit) SHOAL_TRY(relight(scene));
+    lighting.environmentIntensity *= scene.environment.intensity;
+    const bool skyChanged = relit || lighting.environmentIntensity != loaded.lightingParams.environmentIntensity;
+    if (water && (skyChanged || !scene::sameTables(scene, loaded.scene, "water"))) {
+        const Vec3 sky = skyIrradiance(loaded.content, lighting.environmentIntensity);
+        auto made = WaterPass::create(state_->device, std::move(*water), sky);
+        if (!made) {
+            if (relit) SHOAL_TRY(relight(loaded.scene));
+            return atWater(scene, made.error());
+        }
+        loaded.water = std::move(*made);
+    } else if (!water) {
+        loaded.water.reset();
+    }
+    lighting.sunDisc = lighting.sunDisc && loaded.content.sunInBackground;
+    loaded.shadowParams = shadows;
+    loaded.lightingParams = lighting;
+    loaded.postParams = post;
+    loaded.scene = scene;
     return {};
 }
 
@@ -307,20 +371,24 @@ Result<void> Pipeline::render(const FrameRequest& request) {
     const int sampleCount = temporal                                ? (first ? kPreRoll : 1)
                             : request.antialiasing == "supersample" ? request.samples
                                                                     : 1;
-    s.moveInstances(request.time);
-    s.loaded->geometry->update(context);
-    s.drawNeededViews(context);
+    const bool goesOn = !temporal && request.sampleBegin > 0;  // all below is as the call before left it
+    const int sampleEnd = temporal || request.sampleEnd <= 0 ? sampleCount : std::min(request.sampleEnd, sampleCount);
+    if (!goesOn) {
+        s.moveInstances(request.time);
+        s.loaded->geometry->update(context);
+        s.drawNeededViews(context);
+    }
     s.lighting.setTermsWanted(false);
     if (s.loaded->water) {
         SHOAL_TRY(s.loaded->water->resize(request.width, request.height));
         s.loaded->water->setTermsWanted(false);
-        s.loaded->water->renderFrame(context, s.waterScene());
+        if (!goesOn) s.loaded->water->renderFrame(context, s.waterScene(context));
     }
     const frame::PostParams& look = s.loaded->postParams;
     s.post.setExpectedExposure(look.exposureMode == "fixed" ? std::exp2(look.exposureEv) : 0);
-    if (!temporal) s.post.beginAccumulation(request.width, request.height);
+    if (!temporal && !goesOn) s.post.beginAccumulation(request.width, request.height);
     const std::uint32_t firstSample = (request.seed - 1) * 4099;  // another place in the noise
-    for (int i = 0; i < sampleCount; ++i) {
+    for (int i = goesOn ? request.sampleBegin : 0; i < sampleEnd; ++i) {
         context.sampleIndex = firstSample + std::uint32_t(i);
         if (temporal)
             context.jitterPx =
@@ -381,6 +449,7 @@ void Pipeline::blit(std::uint32_t framebuffer, int width, int height) {
 }
 
 light::View Pipeline::view() const { return state_->view; }
+void Pipeline::setDraftsWanted(bool wanted) { state_->draftsWanted = wanted; }
 void Pipeline::setTiming(bool on) { state_->timer.setEnabled(on); }
 
 frame::Stats Pipeline::stats() const {

@@ -8,6 +8,8 @@ namespace shoal::pipeline {
 
 namespace {
 
+constexpr int kDraftPhotons = 8;  // a draft has one in so many
+
 gl::Texture colorTarget(gl::Device& device, int width, int height, const char* label) {
     return gl::Texture::create(device, {.format = GL_RGBA16F, .width = width, .height = height, .label = label});
 }
@@ -60,13 +62,15 @@ void WaterPass::drawDepths(const frame::Context& context, std::span<frame::Neede
 void WaterPass::renderFrame(const frame::Context& context, const WaterScene& scene) {
     const water::BodyLights lights = bodyLights(scene);
     const Bounds bounds = scene.geometry.bounds();
-    water_.prepare(context, params_, lights, bounds);
+    water::WaterParams params = params_;
+    if (context.draft) params.photons.photons = std::max(1000, params.photons.photons / kDraftPhotons);
+    water_.prepare(context, params, lights, bounds);
     if (paper_) {
         paper_->prepare(context, paperParams_, water_.body(), lights, bounds);
         drawDepths(context, paper_->neededViews(), scene.geometry);
     } else {
         drawDepths(context, water_.neededViews(), scene.geometry);
-        water_.renderLight(context, params_, lights);
+        water_.renderLight(context, params, lights);
     }
     water_.surface().prepare(context, params_.surface, water_.body(), bounds);
     const auto needed = water_.surface().neededViews();

@@ -289,6 +289,51 @@ Mat4 transformAt(const Instance& instance, float time) {
     return instance.worldFromModel;
 }
 
+bool sameLights(const Scene& a, const Scene& b) {
+    if (a.sunGiven != b.sunGiven || a.sunOff != b.sunOff || a.lights.size() != b.lights.size()) return false;
+    const auto values = [](const auto& params) {
+        std::string all;
+        visit(params, [&](const auto& field, const Field&) { all += detail::showField(field) + "\n"; });
+        return all;
+    };
+    if (values(a.sun) != values(b.sun) || values(a.environment) != values(b.environment)) return false;
+    for (std::size_t i = 0; i < a.lights.size(); ++i)
+        if (values(a.lights[i]) != values(b.lights[i])) return false;
+    return true;
+}
+
+bool sameTables(const Scene& a, const Scene& b, std::string_view root) {
+    const auto wordsOf = [&](const Scene& scene) {
+        std::string all;
+        for (const RawTable& table : scene.tables) {
+            if (table.name.substr(0, table.name.find('.')) != root) continue;
+            all += "[" + table.name + "]\n";
+            for (const RawEntry& entry : table.entries) {
+                all += entry.key + "=" + (entry.value.boolean ? "true" : "") + entry.value.text;
+                for (const double number : entry.value.numbers) all += " " + detail::showField(float(number));
+                all += "\n";
+            }
+        }
+        return all;
+    };
+    return wordsOf(a) == wordsOf(b);
+}
+
+Result<void> reloadLights(const Scene& scene, Content& content) {
+    Content lit;
+    SHOAL_TRY(makeLight(scene, lit));
+    std::swap(lit.models, content.models);
+    std::swap(lit.instances, content.instances);
+    addModelLights(scene, lit);
+    std::swap(lit.models, content.models);
+    std::swap(lit.instances, content.instances);
+    content.environment = std::move(lit.environment);
+    content.sun = lit.sun;
+    content.sunInBackground = lit.sunInBackground;
+    content.lights = std::move(lit.lights);
+    return {};
+}
+
 Result<Content> loadContent(const Scene& scene, const LogSink& log) {
     Content content;
     std::map<std::string, int> modelOfFile;

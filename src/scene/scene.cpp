@@ -143,6 +143,7 @@ Result<ModelEntry> parseModel(const Tree& written, const std::string& path) {
     const Tree tree = withFullScale(written);
     ModelEntry entry;
     entry.place = tree.place;
+    entry.key = path;
     SHOAL_TRY(requireTable(tree, path));
     std::vector<std::string> known = {"walk", "hide", "copies"};
     SHOAL_TRY(bindFields(tree, path, entry.model, known));
@@ -176,6 +177,7 @@ Result<ShapeEntry> parseShape(const Tree& written, const std::string& path) {
     const Tree tree = withFullScale(written);
     ShapeEntry entry;
     entry.place = tree.place;
+    entry.key = path;
     SHOAL_TRY(requireTable(tree, path));
     // `shape = "plane"` says the same as `kind = "plane"`.
     const std::string key = tree.find("shape") ? "shape" : "kind";
@@ -305,7 +307,7 @@ Result<Scene> sceneOfTree(const Tree& root, const std::filesystem::path& file) {
     Scene scene;
     scene.file = file;
     scene.cameraPlace = scene.environmentPlace = {file.string(), 1};
-    std::vector<std::string> known = {"camera", "sun", "environment", "light", "model", "shape", "render"};
+    std::vector<std::string> known = {"camera", "sun", "environment", "light", "model", "shape", "render", "ground"};
     known.insert(known.end(), kRawTables.begin(), kRawTables.end());
     SHOAL_TRY(refuseUnknown(root, "", known));
     if (const Tree* tree = root.find("camera")) SHOAL_TRY(parseCamera(*tree, scene));
@@ -313,6 +315,12 @@ Result<Scene> sceneOfTree(const Tree& root, const std::filesystem::path& file) {
     if (const Tree* tree = root.find("environment")) SHOAL_TRY(parseEnvironment(*tree, scene));
     if (const Tree* tree = root.find("light")) SHOAL_TRY(parseLights(*tree, scene));
     if (const Tree* tree = root.find("render")) SHOAL_TRY(bindAll(*tree, "render", scene.render));
+    if (const Tree* tree = root.find("ground")) {
+        if (tree->kind != Tree::Kind::value || tree->value.kind != FieldValue::Kind::boolean)
+            return errorAt(tree->place, "ground",
+                           std::string("found ") + describeKind(*tree) + ", expected true or false");
+        scene.bareModel = tree->value.boolean;
+    }
     if (const Tree* tree = root.find("model")) {
         SHOAL_TRY(requireArray(*tree, "model"));
         for (std::size_t i = 0; i < tree->elements.size(); ++i) {
@@ -343,7 +351,7 @@ Result<Scene> sceneOfTree(const Tree& root, const std::filesystem::path& file) {
 Result<Scene> parseScene(std::string_view text, const std::filesystem::path& file,
                          std::span<const Override> overrides) {
     SHOAL_TRY_ASSIGN(Tree root, parseTree(text, file));
-    for (const Override& change : overrides) SHOAL_TRY(applyOverride(root, change));
+    SHOAL_TRY(applyOverrides(root, overrides));
     return sceneOfTree(root, file);
 }
 
@@ -364,10 +372,13 @@ Result<Scene> sceneForModel(const std::filesystem::path& modelFile, std::span<co
     models.kind = Tree::Kind::array;
     models.elements.push_back(model);
     root.members.push_back({"model", models});
-    for (const Override& change : overrides) SHOAL_TRY(applyOverride(root, change));
-    SHOAL_TRY_ASSIGN(Scene scene, sceneOfTree(root, modelFile));
-    scene.bareModel = true;
-    return scene;
+    Tree ground;
+    ground.kind = Tree::Kind::value;
+    ground.value.kind = FieldValue::Kind::boolean;
+    ground.value.boolean = true;
+    root.members.push_back({"ground", ground});
+    SHOAL_TRY(applyOverrides(root, overrides));
+    return sceneOfTree(root, modelFile);
 }
 
 Result<Scene> openScene(const std::filesystem::path& file, std::span<const Override> overrides) {

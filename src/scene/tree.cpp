@@ -72,13 +72,16 @@ Result<Tree> convertArray(const toml::array& array, Tree tree, int level) {
 
 Result<Tree> convertTable(const toml::table& table, Tree tree, int level) {
     tree.kind = Tree::Kind::table;
+    // The library sorts by name; a person's order is that of the places.
+    std::vector<std::pair<std::pair<int, int>, TreeMember>> placed;
     for (const auto& [key, value] : table) {
         SHOAL_TRY_ASSIGN(Tree child, convert(value, tree.place.file, level + 1));
-        child.place.line = int(key.source().begin.line);
-        tree.members.push_back({std::string(key.str()), std::move(child)});
+        const toml::source_position at = key.source().begin;
+        child.place.line = int(at.line);
+        placed.push_back({{int(at.line), int(at.column)}, {std::string(key.str()), std::move(child)}});
     }
-    std::stable_sort(tree.members.begin(), tree.members.end(),
-                     [](const auto& a, const auto& b) { return a.tree.place.line < b.tree.place.line; });
+    std::stable_sort(placed.begin(), placed.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    for (auto& [place, member] : placed) tree.members.push_back(std::move(member));
     return tree;
 }
 
@@ -221,6 +224,25 @@ Result<void> applyOverride(Tree& root, const Override& change) {
         at = member;
     }
     *at = treeOfWords(change.value);
+    return {};
+}
+
+Result<void> applyOverrides(Tree& root, std::span<const Override> changes) {
+    for (const Override& change : changes) SHOAL_TRY(applyOverride(root, change));
+    // Two ways to say the same thing: the one that was set counts.
+    const auto replaces = [&](const char* key, const char* table, const std::vector<std::string>& others) {
+        Tree* tree = root.find(table);
+        const auto isSet = [&](const std::string& wanted) {
+            return std::any_of(changes.begin(), changes.end(), [&](const Override& c) { return c.key == wanted; });
+        };
+        if (!tree || !isSet(key)) return;
+        std::erase_if(tree->members, [&](const TreeMember& member) {
+            return std::find(others.begin(), others.end(), member.name) != others.end() &&
+                   !isSet(std::string(table) + "." + member.name);
+        });
+    };
+    replaces("camera.position", "camera", {"orbit", "path", "poses", "model"});
+    replaces("sun.toSun", "sun", {"elevationDeg", "azimuthDeg"});
     return {};
 }
 

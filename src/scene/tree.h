@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -38,6 +39,9 @@ Result<Tree> parseTree(std::string_view text, const std::filesystem::path& file)
 
 // Sets "a.b[2].c" to the override's value, making tables on the way.
 Result<void> applyOverride(Tree& root, const Override& change);
+// All in order. An eye that is put somewhere is a camera of its own: camera.position takes out every other kind that is
+// not set as well, sun.toSun the sun's angles.
+Result<void> applyOverrides(Tree& root, std::span<const Override> changes);
 
 // "a table", "a number", "a text", ... for error messages.
 const char* describeKind(const Tree& tree);

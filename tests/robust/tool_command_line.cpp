@@ -19,7 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::vector<std::string> kVerbs = {"render", "info", "compare", "reference", "demo", "bench"};
+const std::vector<std::string> kVerbs = {"render",    "view", "info",  "compare",
+                                         "reference", "demo", "bench", "completion"};
 
 const std::string kScene =
     "[camera]\nposition = [3, 2, 5]\ntarget = [0, 0.5, 0]\n[render]\nwidth = 64\nheight = 36\nsamples = 2\nfps = 10\n"
@@ -113,7 +114,7 @@ TEST_P(ToolExamples, WorkAsPrinted) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, ToolExamples,
-                         testing::Values("", "render", "info", "compare", "reference", "demo", "bench"),
+                         testing::Values("", "render", "info", "compare", "reference", "demo", "bench", "completion"),
                          [](const testing::TestParamInfo<std::string>& info) {
                              return info.param.empty() ? "shoal" : info.param;
                          });

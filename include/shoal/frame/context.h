@@ -21,6 +21,7 @@ struct Context {
     Vec2 jitterPx;                    // this sample's offset from the pixel centre, x right, y up, [-0.5, 0.5]
     float time = 0;                   // seconds of scene time
     float timeStep = 0;               // seconds since the frame before, 0 in the first
+    bool draft = false;               // may leave out what is smaller than a pixel or two
     // World: only what has dot(clipPlane, (p, 1)) >= 0 is drawn into the G-buffer. (0, 0, 0, 1): all.
     Vec4 clipPlane{0, 0, 0, 1};
     std::uint32_t frameIndex = 0;   // counts frames; feeds every pseudo-random choice

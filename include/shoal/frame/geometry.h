@@ -47,6 +47,8 @@ public:
     void setTransform(InstanceId instance, const Mat4& worldFromModel);
     void setVisible(InstanceId instance, bool visible);
     void clear();  // all models and instances
+    // Models added from now on keep a second, coarser set of triangles that contexts marked `draft` may draw.
+    void setDraftsWanted(bool wanted);
 
     // Poses and skins every instance at context.time (and keeps the frame before for motion). Once a frame, before any
     // draw; a second call for the same frameIndex does nothing.

@@ -29,6 +29,11 @@ struct FrameRequest {
     std::uint32_t frameIndex = 0;              // 0 begins a sequence: history and automatic exposure start anew
     std::string antialiasing = "supersample";  // "none", "supersample", "temporal"
     int samples = 4;                           // of supersample, 1..1024
+    // Supersample in several calls: this one draws samples [sampleBegin, sampleEnd); sampleEnd 0: to the last. A call
+    // with sampleBegin > 0 goes on where the call before ended and must differ from it in nothing else; after the last
+    // one the picture has the bits of a single call.
+    int sampleBegin = 0, sampleEnd = 0;
+    bool draft = false;      // quicker: leaves out detail of a pixel or two (setDraftsWanted comes first)
     std::uint32_t seed = 1;  // shifts where samples fall in the pixel and the noise of ambient occlusion
     std::optional<light::Camera> camera = {};  // instead of the scene's
 };
@@ -55,6 +60,10 @@ public:
     // Takes over a scene: uploads models, prefilters the environment, binds [shadows], [lighting], [post]. Replaces the
     // scene before; that one stays when this fails.
     Result<void> setScene(const scene::Scene& scene, scene::Content content);
+    // Takes over what differs in lights, camera, [render], [shadows], [lighting], [post] and the techniques' tables;
+    // the models, shapes and camera poses stay, so they must be the same. Much faster than setScene. The scene before
+    // stays when this fails.
+    Result<void> updateScene(const scene::Scene& scene);
     // Opens a scene or model file, reads its content and sets it.
     Result<void> open(const std::filesystem::path& file, std::span<const scene::Override> overrides = {});
     const scene::Scene& scene() const;
@@ -77,6 +86,8 @@ public:
 
     light::View view() const;  // of the last frame, without jitter
     void setTiming(bool on);
+    // Scenes set from now on keep what drafts are drawn from.
+    void setDraftsWanted(bool wanted);
     frame::Stats stats() const;  // passes of the last frame, bytes held, triangles, draws
 
 private:

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <shoal/core/log.h>
@@ -50,6 +51,13 @@ struct Content {
 
 // Reads and makes everything, in parallel. Errors name the scene's line and the file.
 Result<Content> loadContent(const Scene& scene, const LogSink& log = {});
+
+// Whether sun, environment and lamps of two scenes are the same.
+bool sameLights(const Scene& a, const Scene& b);
+// Whether the tables of a technique ("water", "water.waves", ...) say the same.
+bool sameTables(const Scene& a, const Scene& b, std::string_view root);
+// Makes the lights of a content anew by `scene`, which has the same models; nothing changes when it fails.
+Result<void> reloadLights(const Scene& scene, Content& content);
 
 // The camera at `time`. aspect = width / height (for fitting).
 light::Camera cameraAt(const Scene& scene, const Content& content, float time, float aspect);

@@ -219,6 +219,7 @@ struct WalkSpec {
 
 struct ModelEntry {
     Place place;
+    std::string key;  // what --set calls it: "model[2]"
     ModelSpec model;
     PlacementSpec placement;
     CopiesSpec copies;
@@ -228,6 +229,7 @@ struct ModelEntry {
 
 struct ShapeEntry {
     Place place;
+    std::string key;  // "shape[0]", or "model[1]" for a [[model]] with a shape
     std::string kind;
     PlacementSpec placement;
     std::vector<RawEntry> settings;  // what the shape itself takes (shapes.h)
@@ -276,12 +278,13 @@ struct Scene {
     std::vector<ModelEntry> models;
     std::vector<ShapeEntry> shapes;
     RenderSpec render;
-    bool bareModel = false;        // made by sceneForModel: loadContent adds the ground
+    bool bareModel = false;        // ground = true (sceneForModel's default): loadContent adds one below everything
     std::vector<RawTable> tables;  // [shadows] [lighting] [post] and the techniques'
     const RawTable* table(std::string_view name) const;
 };
 
-// A `--set key=value`: "camera.fovDeg=40", "model[0].clip=Run", "post.exposureEv=1".
+// A `--set key=value`: "camera.fovDeg=40", "model[0].clip=Run", "post.exposureEv=1". One of camera.position takes the
+// place of the file's orbit, path, poses or model camera, one of sun.toSun of the sun's angles.
 struct Override {
     std::string key, value;
 };

@@ -52,6 +52,7 @@ float cascadeVisibility(int cascade, vec3 sunPosition, vec3 sunNormal) {
     vec2 slope = receiverSlope(sunNormal) * (depthPerMetre * metresPerTexel * texels);   // depth per uv
     float radiusPerDepth = shadowBlock.sunShape.x * shadowBlock.sunShape.y / metresPerTexel;   // texels of penumbra
 
+    // Below the map's range (a draft's map holds only a part of the scene) a receiver counts as at its end.
     // What blocks the disc of the sun, and how far away it is on average. A disc smaller than the tent need not be
     // searched.
     float widest = (1.0 - receiver.z) * radiusPerDepth;
@@ -62,7 +63,7 @@ float cascadeVisibility(int cascade, vec3 sunPosition, vec3 sunNormal) {
     for (int i = 0; i < searchCount; ++i) {
         vec2 offset = direction * (searchRadius * sqrt(float(i) / float(searchCount)));
         vec4 depths = textureGather(sunShadowDepth, vec3(uv + offset, layer));
-        vec4 blocks = vec4(greaterThan(depths, vec4(receiver.z + dot(slope, offset))));
+        vec4 blocks = vec4(greaterThan(depths, vec4(max(receiver.z + dot(slope, offset), 0.0))));
         found += vec2(dot(blocks, depths), dot(blocks, vec4(1.0)));
         direction = turned(direction);
     }
@@ -82,7 +83,7 @@ float cascadeVisibility(int cascade, vec3 sunPosition, vec3 sunNormal) {
         vec2 offset = tent ? (corner - 0.5 + tap.xy) * texel - uv
                            : direction * (radius * texel * sqrt((float(i) + 0.5) / float(tapCount)));
         float weight = tent ? tap.z : 1.0;
-        sum += vec2(weight * texture(sunShadowTest, vec4(uv + offset, layer, receiver.z + dot(slope, offset))), weight);
+        sum += vec2(weight * texture(sunShadowTest, vec4(uv + offset, layer, max(receiver.z + dot(slope, offset), 0.0))), weight);
         direction = turned(direction);
     }
     return mixed ? sum.x / sum.y : found.y > 0.0 ? 0.0 : 1.0;
