@@ -13,7 +13,7 @@ namespace shoal::water {
 
 struct ShaftSetup {
     int resolution = 256;      // texels a side of a slice, at most: few photons fill fewer
-    int slices = 16;           // of a slot, exponential in depth
+    int slices = 10;           // of a slot, exponential in depth
     int viewResolution = 512;  // the LightViews' resolution
 };
 
@@ -21,8 +21,8 @@ struct ShaftSetup {
 struct ShaftParams {
     bool enabled = true;
     int photons = 40000;
-    int steps = 32;
-    float resolutionScale = 0.5f;
+    int steps = 16;
+    float resolutionScale = 0.25f;
 };
 template <class P, class V>
 requires std::is_same_v<std::remove_const_t<P>, ShaftParams>

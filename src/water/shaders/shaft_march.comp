@@ -27,24 +27,17 @@ float patternOf(ivec2 at) {
     return float(((q.x & 1) << 3) | ((q.y & 1) << 2) | (q.x & 2) | ((q.y & 2) >> 1));
 }
 
-// Whether slot j has all light at this place; t: its texels, from its middle.
-bool slotHolds(int j, vec2 t, float depth) {
-    vec2 away = abs(t);
-    return max(away.x, away.y) < shaftBlock.rims[j].x - shaftBlock.rims[j].y * depth;
-}
+// Along a path each slot's texels from its middle (xy) and how far inside the rim a place is (z) change evenly.
+struct SlotLine {
+    vec3 from, perM;
+};
 
-// Sunlight at a place of light space, as a multiple of level water's. The texel and slice are chosen by chance in
-// proportion to what interpolation would give each: steps and neighbours average it.
-float sunlightAt(vec2 s, float depth, vec3 random) {
-    float half_ = 0.5 * shaftBlock.grid.x;
-    vec2 a = shaftTexelOf(s, 0) - half_, b = shaftTexelOf(s, 1) - half_, c = shaftTexelOf(s, 2) - half_;
-    bool inA = slotHolds(0, a, depth), inB = slotHolds(1, b, depth), inC = slotHolds(2, c, depth);
-    vec2 at = inA ? a : inB ? b : c;
-    int slot = inA ? 0 : inB ? 1 : 2;
-    int k = int(min(shaftSlice(depth) + random.z, shaftBlock.grid.y - 1.0));
-    ivec2 texel = ivec2(clamp(at + (half_ + 0.5) + random.xy, vec2(0.0), vec2(shaftBlock.grid.x + 1.0)));
-    uint sum = texelFetch(shaftSlices, ivec3(texel, slot * int(shaftBlock.grid.y) + k), 0).x;
-    return inA || inB || inC ? float(sum) * shaftBlock.units.y : 1.0;
+SlotLine slotLineOf(int j, vec2 s0, vec2 sPerM, float depth0, float depthPerM) {
+    SlotLine line;
+    vec4 rim = shaftBlock.rims[j];
+    line.from = vec3(shaftTexelOf(s0, j) - 0.5 * shaftBlock.grid.x, rim.x - rim.y * depth0);
+    line.perM = vec3(sPerM * shaftBlock.slots[j].z, -rim.y * depthPerM);
+    return line;
 }
 
 void main() {
@@ -70,12 +63,26 @@ void main() {
     float stepM = reach / (float(steps) * float((1 << kStretches) - 1));
     float jitter = fract((pattern + 0.5) / 16.0 + shaftBlock.march.z), t = stepM * jitter;
     vec3 pass = exp(-apart * stepM), left = vec3(1.0), sum = vec3(0.0);
+    SlotLine lines[SHOAL_SUN_SHAFT_SLOTS];
+    for (int j = 0; j < SHOAL_SUN_SHAFT_SLOTS; ++j) lines[j] = slotLineOf(j, s0, sPerM, depth0, -path.direction.y);
+    float slices = shaftBlock.grid.y, middle = 0.5 * shaftBlock.grid.x + 0.5, rim = shaftBlock.grid.x + 1.0;
     vec3 random = fract(0.5 + (pattern + shaftBlock.march.w) * kEven);
     for (int stretch = 0; stretch < kStretches; ++stretch) {
         vec3 taken = vec3(1.0) - pass;
         for (int i = 0; i < steps; ++i) {
-            float light = sunlightAt(s0 + sPerM * t, depth0 - path.direction.y * t, random);
-            sum += (left * taken) * light;
+            // The finest slot that has all light of the place; where there is none, level water's.
+            vec3 a = lines[0].from + lines[0].perM * t, b = lines[1].from + lines[1].perM * t;
+            vec3 c = lines[2].from + lines[2].perM * t;
+            bool inA = max(abs(a.x), abs(a.y)) < a.z, inB = max(abs(b.x), abs(b.y)) < b.z;
+            bool inC = max(abs(c.x), abs(c.y)) < c.z;
+            vec2 place = inA ? a.xy : inB ? b.xy : c.xy;
+            float slot = inA ? 0.0 : inB ? slices : 2.0 * slices;
+            // Texel and slice by chance, in proportion to what interpolation would give each: steps and neighbours
+            // average it.
+            float k = min(shaftSlice(depth0 - path.direction.y * t) + random.z, slices - 1.0);
+            ivec2 texel = ivec2(clamp(place + middle + random.xy, vec2(0.0), vec2(rim)));
+            float found = float(texelFetch(shaftSlices, ivec3(texel, int(slot) + int(k)), 0).x) * shaftBlock.units.y;
+            sum += (left * taken) * (inA || inB || inC ? found : 1.0);
             left *= pass;
             t += stepM;
             random = fract(random + 16.0 * kEven);

@@ -8,11 +8,11 @@
 layout(binding = SHOAL_UNIT_PASS) uniform sampler2D shaftViewDepth;   // full size
 
 WaterPath shaftPathOf(ivec2 at) {
-    float viewDepth = texelFetch(shaftViewDepth, at, 0).x;
     vec2 pixel = vec2(at) + 0.5;
 #ifdef PATHS
-    return waterPathOf(pixel, viewDepth);
+    return waterPathOf(pixel, 0.0);   // traced paths end at what is seen
 #else
+    float viewDepth = texelFetch(shaftViewDepth, at, 0).x;
     PixelRay ray = rayOfPixel(pixel);
     float stepM = length(ray.step);
     WaterPath path;

@@ -17,20 +17,21 @@ const float kMostParts = 2.0;   // of a photon's footprint along an axis
 // Times what level water lets through: no photon counts for more. All photons of a slot in one texel fill 32 bits.
 const float kMostLight = 16.0;
 
-// Spreads `amount` over the four texels around t. The last share is what is left, so that none is lost; `rounding` in
-// [0, 1) decides which way the fraction of a unit goes, evenly over all photons.
+// Spreads `amount` over the three texels around t whose middles make a triangle, in proportion to its barycentric
+// coordinates. The last share is what is left, so that none is lost; `rounding` in [0, 1) decides which way the fraction
+// of a unit goes, evenly over all photons.
 void deposit(int layer, vec2 t, float amount, float rounding) {
     vec2 at = t + 0.5;   // the border's texel comes first
     vec2 low = floor(at), f = at - low;
     if (any(lessThan(low, vec2(0.0))) || any(greaterThan(low, vec2(shaftBlock.grid.x)))) return;
+    bool right = f.x > f.y;
     uint all = uint(amount + rounding);
-    uint upper = uint(float(all) * f.y + 0.5), lower = all - upper;
-    uint upperRight = uint(float(upper) * f.x + 0.5), lowerRight = uint(float(lower) * f.x + 0.5);
+    uint far = min(uint(float(all) * min(f.x, f.y) + 0.5), all), beside = uint(float(all) * abs(f.x - f.y) + 0.5);
+    beside = min(beside, all - far);
     ivec3 place = ivec3(low, layer);
-    imageAtomicAdd(shaftSlices, place, lower - lowerRight);
-    imageAtomicAdd(shaftSlices, place + ivec3(1, 0, 0), lowerRight);
-    imageAtomicAdd(shaftSlices, place + ivec3(0, 1, 0), upper - upperRight);
-    imageAtomicAdd(shaftSlices, place + ivec3(1, 1, 0), upperRight);
+    imageAtomicAdd(shaftSlices, place, all - far - beside);
+    imageAtomicAdd(shaftSlices, place + (right ? ivec3(1, 0, 0) : ivec3(0, 1, 0)), beside);
+    imageAtomicAdd(shaftSlices, place + ivec3(1, 1, 0), far);
 }
 
 // How much more (or less) of a photon's light turns to the eye than of light on the mean way: the march takes the mean
@@ -42,6 +43,24 @@ float phaseRatio(vec3 position, vec3 direction, vec3 meanDirection) {
     return clamp(ratio, 0.2, 5.0);
 }
 
+// Metres of travel to what the photon meets, in few steps: where they do not agree (it passes an edge), the deeper one,
+// so that a shadow begins a little late rather than light is lost.
+float shaftTravel(Photon p) {
+    const int kSteps = 3;
+    const float kNothing = 1e6;
+    int size = int(lightSpace.counts.y);
+    vec4 rows = lightSpace.slots[slot].rows, place = lightSpace.slots[slot].place, height = lightSpace.slots[slot].height;
+    float travel = 0.0, before = 0.0;
+    for (int n = 0; n < kSteps; ++n) {
+        vec2 here = photonPlace(p, slot, min(travel, lightSpace.slots[slot].reach.w));
+        ivec2 texel = clamp(ivec2(floor((here - place.xy) * place.w)), ivec2(0), ivec2(size - 1));
+        float depth = texelFetch(litDepth, ivec3(texel.x, int(rows.x) * texel.y + int(rows.y), 2 * slot), 0).x;
+        before = travel;
+        travel = depth > 0.0 ? max(p.start.y - heightOfDepth(depth, height), 0.0) : kNothing;
+    }
+    return max(travel, before);
+}
+
 void main() {
     int perTexel = int(shaftBlock.grid.z), side = int(shaftBlock.grid.x) * perTexel;
     ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
@@ -50,11 +69,9 @@ void main() {
     vec2 xz = shaftBlock.slots[i].xy + (vec2(cell) + 0.5) * (fraction / shaftBlock.slots[i].z);
 
     Photon p = photonAt(xz, slot);
-    int layer;
-    float hit = photonTravel(p, slot, layer);
     float level = lightSpace.slots[slot].reach.z;
     // What is met at the very surface has no water before it.
-    float deepest = hit < 0.0 ? 1e30 : level - p.start.y + hit;
+    float deepest = level - p.start.y + shaftTravel(p);
     vec3 mean = waterBlock.sunRefracted.xyz;
 #ifdef NO_LAMPS
     float levelFluence = waterBlock.toSun.y * waterBlock.sunRefracted.w / -mean.y;

@@ -60,8 +60,9 @@ struct Shafts::State {
 
     gl::Device& device;
     ShaftSetup setup;
-    // [Fournier-Forand][the sun; the sun where waves or things above the water may shade it; a lamp]
-    const gl::Program* photons[2][3] = {};
+    // [Fournier-Forand][the sun; the sun where waves or things above the water may shade it; a lamp][kinds of waves
+    // that are left out]
+    const gl::Program* photons[2][3][4] = {};
     const gl::Program* march[2][2][3] = {};  // [Fournier-Forand][paths given][lamps: none, some, some with shadows]
     const gl::Program* upsample[2] = {};     // [paths given]
     const gl::Program* blur[2] = {};         // [axis]
@@ -76,7 +77,7 @@ struct Shafts::State {
     std::string problem;
 
     const gl::Program* get(const gl::Program*& kept, const char* name, const Defines& defines);
-    const gl::Program* photonProgram(bool fournierForand, int kind);
+    const gl::Program* photonProgram(bool fournierForand, int kind, const Defines& waves);
     const gl::Program* marchProgram(bool fournierForand, bool bent, int lamps);
     Result<void> makePrograms();
     bool reserveSlices(int side, int layers);
@@ -95,12 +96,14 @@ const gl::Program* Shafts::State::get(const gl::Program*& kept, const char* name
     return nullptr;
 }
 
-const gl::Program* Shafts::State::photonProgram(bool fournierForand, int kind) {
-    Defines defines;
+const gl::Program* Shafts::State::photonProgram(bool fournierForand, int kind, const Defines& waves) {
+    Defines defines = waves;
+    std::size_t lacks = 0;
+    for (const auto& define : waves) lacks |= define.first == "SHOAL_WAVES_NO_TILES" ? 1 : 2;
     if (fournierForand) defines.emplace_back("FOURNIER_FORAND", "1");
     if (kind < kLamp) defines.emplace_back("NO_LAMPS", "1");
     if (kind == kOpenSun) defines.emplace_back("NO_WAVE_SHADOWS", "1"), defines.emplace_back("NO_AIR", "1");
-    return get(photons[fournierForand][kind], "water/shaft_photons.comp", defines);
+    return get(photons[fournierForand][kind][lacks], "water/shaft_photons.comp", defines);
 }
 
 const gl::Program* Shafts::State::marchProgram(bool fournierForand, bool bent, int lamps) {
@@ -117,7 +120,7 @@ Result<void> Shafts::State::makePrograms() {
     for (int i = 0; i < 2; ++i) {
         get(upsample[i], "water/shaft_upsample.comp", i ? Defines{{"PATHS", "1"}} : Defines{});
         get(blur[i], "water/shaft_blur.comp", {{"AXIS", std::to_string(i)}});
-        photonProgram(false, i);
+        photonProgram(false, i, {});
         marchProgram(false, i, 0);
     }
     if (failed) return internalError(problem);
@@ -177,8 +180,10 @@ void Shafts::render(const frame::Context& context, const ShaftParams& params, co
     const gl::PassScope pass(context.timer, "shaft photons");
     const bool fournierForand = body.optics.phase == Optics::Phase::fournierForand;
     const bool shaded = sunSlots > 0 && (shadedAbove(body, *lights.sun) || views.airDrawn());
-    const gl::Program* fromSun = sunSlots ? s.photonProgram(fournierForand, shaded ? kShadedSun : kOpenSun) : nullptr;
-    const gl::Program* fromLamps = lampSlots ? s.photonProgram(fournierForand, kLamp) : nullptr;
+    const Defines waves = body.waves ? waveDefines(*body.waves) : Defines{};
+    const gl::Program* fromSun =
+        sunSlots ? s.photonProgram(fournierForand, shaded ? kShadedSun : kOpenSun, waves) : nullptr;
+    const gl::Program* fromLamps = lampSlots ? s.photonProgram(fournierForand, kLamp, waves) : nullptr;
     const int used = lampSlots ? SHOAL_SUN_SHAFT_SLOTS + lampSlots : sunSlots;
     if (s.failed || !s.reserveSlices(s.plan.side, used * s.setup.slices)) {
         for (Vec4& rim : s.plan.block.rims) rim.x = -1;
@@ -259,7 +264,7 @@ void Shafts::march(const frame::Context& context, const ShaftParams& params, con
     const gl::PassScope pass(context.timer, "shaft upsample");
     bindInput(SHOAL_UNIT_PASS + 1, s.sources);
     gl::bindImage(0, outputs.inscatter, GL_WRITE_ONLY);
-    s.upsample[bent]->dispatch(fullWidth, fullHeight);
+    s.upsample[bent]->dispatch((fullWidth + 1) / 2, (fullHeight + 1) / 2);
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT);
 }
 
