@@ -54,10 +54,11 @@ using State = Photons::State;
 constexpr int kMipLevels = 3;  // squares begin at multiples of 8 texels
 constexpr int kSharpLevels = 6;
 constexpr std::size_t kMostPasses = 2 + kSharpLevels + kMipLevels;  // of one slot after the deposit
-constexpr int kLargestFineMap = 1024;  // texels a side of maps that may be deposited twice as fine
+// Texels a side of maps that may be deposited three times and twice as fine.
+constexpr int kFinestMap = 512, kLargestFineMap = 1024;
 // Radius of the light's disc at the slot's bottom, texels: smaller ones are not seen, and up to the second one the map
-// that they blur must be twice as fine (convolving 512^2 bins by .9 texels leaves 11 % error,
-// 1024^2 bins 2 %) where one map is all there is; where maps follow each other their steps are larger than that.
+// that they blur must be finer where the sun's one map is all there is (convolving 512^2 bins by .9 texels leaves 11 %
+// error, 1024^2 bins 2.5 %, 1536^2 bins 1.7 %). Where maps follow each other their steps are larger than that.
 constexpr double kSeenDisc = 0.6, kWideDisc = 2;
 constexpr double kReflectedShare = 0.125;
 constexpr float kFewTexels = 1.5f;
@@ -296,7 +297,7 @@ Result<Photons> Photons::create(gl::Device& device, const PhotonSetup& setup) {
     desc.layers = 2 * setup.maxSlots;
     desc.label = "caustic maps";
     s.maps = gl::Texture::create(device, desc);
-    s.mostFine = setup.resolution <= kLargestFineMap ? 2 : 1;
+    s.mostFine = setup.resolution <= kFinestMap ? 3 : setup.resolution <= kLargestFineMap ? 2 : 1;
     const std::size_t side = std::size_t(setup.resolution) * std::size_t(s.mostFine);
     desc.format = GL_R32F;
     desc.width = int(side), desc.height = shelved(int(side));
@@ -329,7 +330,7 @@ void Photons::render(const frame::Context& context, const PhotonParams& params, 
         const LightSlot& slot = slots[std::size_t(i)];
         s.sunHasSlot = s.sunHasSlot || (slot.light < 0 && !slot.reflected);
         const double disc = double(slot.discRadius) / double(slot.texel);
-        const bool alone = cascadesOf(slot, slots) == 1;
+        const bool alone = slot.light < 0 && !slot.reflected && cascadesOf(slot, slots) == 1;
         const int fine = alone && disc >= kSeenDisc && disc < kWideDisc ? s.mostFine : 1;
         depositSlot(s, context, i, slot, photonsOf(slot, slots, params.photons), variantOf(slot, body, lights, air),
                     slope, fine);

@@ -13,8 +13,8 @@ using vec4 = Vec4;
 #endif
 
 SHOAL_CAUSTIC_BLOCK_BEGIN {
-    // World position of pixel p (middles at .5) at view depth z: origin + p.x originX + p.y originY + z (ray + p.x rayX +
-    // p.y rayY).
+    // World position of pixel p (middles at .5) at view depth z:
+    // origin + p.x originX + p.y originY + z (ray + p.x rayX + p.y rayY).
     vec4 origin, originX, originY;
     vec4 ray, rayX, rayY;
     vec4 size;  // x, y: pixels; z: metres a pixel at view depth 1 (perspective), w: at any depth (orthographic)

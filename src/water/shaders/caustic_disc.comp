@@ -34,8 +34,8 @@ void main() {
     float qx = dot(disc.xy * disc.xy, q), qy = dot(disc.yx * disc.yx, q), qxy = disc.x * disc.y * (q.x - q.y);
     float shift = -qxy / qx, widest = 1.0 / qx, steep = q.x * q.y / (qx * qx);
 
-    // A texel that is written may be two that are read: the mean over both of them, and in a row over two lines each.
-    float width = float(place.y) * shrink, apart = max(0.5 * (width - 1.0), 0.0);
+    // A texel that is written may be several that are read: two lines and columns as far apart as those spread.
+    float width = float(place.y) * shrink, apart = sqrt(max(width * width - 1.0, 0.0) / 12.0);
     vec4 lines = vec4(-0.25, 0.25, -0.25, 0.25) + vec4(-apart, -apart, apart, apart);
     vec2 centre = (vec2(id.xy) + 0.5) * width;
     vec2 extent = vec2(sqrt(qy), sqrt(qx)) / sqrt(q.x * q.y) + 0.5 + apart;

@@ -60,12 +60,13 @@ vec3 normalAt(ivec2 pixel, vec3 position, float depth) {
         ivec2 after = min(pixel + step, limit), before = max(pixel - step, ivec2(0));
         float a = texelFetch(viewDepthTexture, after, 0).x, b = texelFetch(viewDepthTexture, before, 0).x;
         bool useAfter = after != pixel && a > 0.0 && (before == pixel || b <= 0.0 || abs(a - depth) < abs(b - depth));
-        vec3 other = useAfter ? positionAt(vec2(after) + 0.5, a) - position : position - positionAt(vec2(before) + 0.5, b);
-        along[axis] = other;
+        along[axis] = useAfter ? positionAt(vec2(after) + 0.5, a) - position
+                               : position - positionAt(vec2(before) + 0.5, b);
     }
     vec3 n = cross(along[0], along[1]);
-    vec3 toEye = -(causticBlock.ray.xyz + causticBlock.rayX.xyz * float(pixel.x) + causticBlock.rayY.xyz * float(pixel.y));
-    n *= dot(n, toEye) < 0.0 ? -1.0 : 1.0;
+    vec2 at = vec2(pixel);
+    vec3 ray = causticBlock.ray.xyz + causticBlock.rayX.xyz * at.x + causticBlock.rayY.xyz * at.y;
+    n *= dot(n, ray) > 0.0 ? -1.0 : 1.0;
     return dot(n, n) > 0.0 ? normalize(n) : vec3(0.0, 1.0, 0.0);
 #endif
 }
@@ -82,8 +83,8 @@ vec3 towardsLight(vec3 p, int slot) {
 }
 
 // The map's value for a surface at light-space place s: bilinear over what is seen of one height. group: any slot of
-// the map's group; slope: of the surface in light space; pixelM: metres a pixel; behind: set where the second layer would have
-// to be looked at.
+// the map's group; slope: of the surface in light space; pixelM: metres a pixel; behind: set where the second layer
+// would have to be looked at.
 float mapValue(vec2 s, float height, float slope, float pixelM, int group, int slot, vec4 place, inout bool behind) {
     int size = int(lightSpace.counts.y);
     vec4 rows = lightSpace.slots[group].rows, heights = lightSpace.slots[group].height;
@@ -94,7 +95,8 @@ float mapValue(vec2 s, float height, float slope, float pixelM, int group, int s
     vec2 at = s * (place.w * exp2(-float(mip))) - 0.5, low = floor(at), f = at - low;
     ivec2 corner = ivec2(low) - (ivec2(floor(place.xy * place.w + 0.5)) >> mip);
     vec4 w = vec4((1.0 - f.x) * (1.0 - f.y), f.x * (1.0 - f.y), (1.0 - f.x) * f.y, f.x * f.y);
-    ivec2 a = clamp(corner, ivec2(0), ivec2((size >> mip) - 1)), b = clamp(corner + 1, ivec2(0), ivec2((size >> mip) - 1));
+    ivec2 last = ivec2((size >> mip) - 1);
+    ivec2 a = clamp(corner, ivec2(0), last), b = clamp(corner + 1, ivec2(0), last);
     // Mips lie above the map itself (one level for the sampler: a level of each pixel's own costs llvmpipe dear).
     ivec2 shelf = mip > 0 ? ivec2(size - (2 * size >> mip), size) : ivec2(0);
     int layer = 2 * slot;
@@ -118,7 +120,8 @@ float mapValue(vec2 s, float height, float slope, float pixelM, int group, int s
         ivec2 map2 = ivec2((i & 1) == 0 ? a.x : b.x, i < 2 ? a.y : b.y);
         float depth = texelFetch(litDepth, ivec3(at2, layer + 1), 0).x;
         bool farther = depth > 0.0 && side * (height - heightOfDepth(depth, heights)) > tolerance;
-        sum += farther || secondUsed[slot] == 0u ? 0.0 : w[i] * texelFetch(causticMaps, ivec3(shelf + ivec2(map2), layer + 1), 0).x;
+        float value2 = texelFetch(causticMaps, ivec3(shelf + map2, layer + 1), 0).x;
+        sum += farther || secondUsed[slot] == 0u ? 0.0 : w[i] * value2;
         if (i == 3) w = vec4(0.0);
     }
 #endif

@@ -17,7 +17,7 @@ void main() {
     if (any(greaterThanEqual(id.xy, place.zz))) return;
     ivec3 at = ivec3(shelfOf(2 * place.z) + 2 * id.xy, place.x + id.z);
     vec2 last = imageLoad(maps, at + ivec3(1, 1, 0)).xy;
-    float sum = imageLoad(maps, at).x + imageLoad(maps, at + ivec3(1, 0, 0)).x + imageLoad(maps, at + ivec3(0, 1, 0)).x +
-                last.x;
+    float sum = imageLoad(maps, at).x + imageLoad(maps, at + ivec3(1, 0, 0)).x +
+                imageLoad(maps, at + ivec3(0, 1, 0)).x + last.x;
     imageStore(maps, ivec3(shelfOf(place.z) + id.xy, at.z), vec4(0.25 * sum, last.y, 0.0, 0.0));
 }

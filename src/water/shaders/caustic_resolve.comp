@@ -34,16 +34,19 @@ void main() {
         float sum = 0.0, height = 0.0;
         for (int i = 0; i < 4; ++i) {
             ivec2 texel = corner + ivec2(i & 1, i >> 1);
-            float value = float(deposits[(id.z * side + min(texel.y, side - 1)) * side + min(texel.x, side - 1)]) * perUnit;
+            ivec2 inside = min(texel, ivec2(side - 1));
+            float value = float(deposits[(id.z * side + inside.y) * side + inside.x]) * perUnit;
             float depth = texelFetch(litDepth, ivec3(texel.x, int(rows.x) * texel.y + int(rows.y), layer), 0).x;
             height = depth > 0.0 ? heightOfDepth(depth, heights) : endless;
             if (all(lessThan(texel, ivec2(side)))) imageStore(maps, ivec3(texel, layer), vec4(value, height, 0.0, 0.0));
             sum += value;
         }
-        if (place.z > 1) imageStore(maps, ivec3(corner >> 1, layer) + ivec3(0, side, 0), vec4(0.25 * sum, height, 0.0, 0.0));
+        if (place.z > 1)
+            imageStore(maps, ivec3(corner >> 1, layer) + ivec3(0, side, 0), vec4(0.25 * sum, height, 0.0, 0.0));
         total += sum;
         middle = block == 0 ? height : middle;
     }
-    if (place.z > 1) imageStore(maps, ivec3(first >> 2, layer) + ivec3(side >> 1, side, 0), vec4(total / 16.0, middle, 0.0, 0.0));
+    ivec3 shelf = ivec3(side >> 1, side, 0);
+    if (place.z > 1) imageStore(maps, ivec3(first >> 2, layer) + shelf, vec4(total / 16.0, middle, 0.0, 0.0));
 }
 #endif

@@ -4,8 +4,8 @@
 
 layout(local_size_x = 64) in;
 
-// Groups of two dispatches, then the tiles, x and y in 16 bits each: near the waterline from the start, behind something
-// from the end.
+// Groups of two dispatches, then the tiles, x and y in 16 bits each: near the waterline from the start, behind
+// something from the end.
 layout(std430, binding = SHOAL_STORAGE_WATER) buffer Tiles { uint tileGroups[8]; uint tiles[]; };
 layout(std430, binding = SHOAL_STORAGE_WATER + 1) buffer TileFlags { uint tileFlags[]; };
 layout(location = 0) uniform ivec2 count;   // tiles along x and y

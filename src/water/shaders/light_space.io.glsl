@@ -49,8 +49,9 @@ float airVisibility(vec3 p, int slot) {
     ivec2 low = clamp(ivec2(floor(airTexelOf(p, slot) - 0.5)), ivec2(0), ivec2(size - 2));
     // Seen from above, whichever way light goes on: rows run against z.
     ivec3 at = ivec3(low.x, size - 2 - low.y, slot);
-    float depth = max(max(texelFetch(airDepth, at, 0).x, texelFetch(airDepth, at + ivec3(1, 0, 0), 0).x),
-                      max(texelFetch(airDepth, at + ivec3(0, 1, 0), 0).x, texelFetch(airDepth, at + ivec3(1, 1, 0), 0).x));
+    vec2 near = vec2(texelFetch(airDepth, at, 0).x, texelFetch(airDepth, at + ivec3(1, 0, 0), 0).x);
+    vec2 far = vec2(texelFetch(airDepth, at + ivec3(0, 1, 0), 0).x, texelFetch(airDepth, at + ivec3(1, 1, 0), 0).x);
+    float depth = max(max(near.x, near.y), max(far.x, far.y));
     if (depth <= 0.0) return 1.0;
     return heightOfDepth(depth, lightSpace.slots[slot].airHeight) > p.y + kGapM ? 0.0 : 1.0;
 }

@@ -20,7 +20,8 @@ SHOAL_FUNCTION vec2 slideToLevel(vec3 p, float level, vec4 source, vec4 mean) {
     float scale = source.w > 0.5 ? lampScale(p.y, level, source.y) : 1.0;
     float centreX = source.w > 0.5 ? source.x : 0.0;
     float centreZ = source.w > 0.5 ? source.z : 0.0;
-    return vec2(centreX + (p.x - centreX) * scale - mean.x * travel, centreZ + (p.z - centreZ) * scale - mean.y * travel);
+    return vec2(centreX + (p.x - centreX) * scale - mean.x * travel,
+                centreZ + (p.z - centreZ) * scale - mean.y * travel);
 }
 
 // World y of a depth map's value.
