@@ -91,7 +91,7 @@ void Viewer::update(double seconds) {
     if (comparison)
         if (auto taken = comparison->picture.takeLoaded(); !taken) fail(taken.error().message);
     watchFiles(seconds);
-    movingSeconds_ = std::max(0.0, movingSeconds_ - seconds);
+    if (!std::exchange(touched_, false)) movingSeconds_ = std::max(0.0, movingSeconds_ - seconds);
     noteSeconds_ = std::max(0.0, noteSeconds_ - seconds);
     flyByKeys(float(seconds));
     if (timeline.playing) {

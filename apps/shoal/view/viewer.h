@@ -110,12 +110,13 @@ private:
     void takeResult(const Result<void>& result);
     float aspect() const { return float(std::max(viewport.width, 1)) / float(std::max(viewport.height, 1)); }
     const Bounds& sceneBounds() const;
-    void touch() { movingSeconds_ = 0.2; }
+    void touch() { movingSeconds_ = 0.2, touched_ = true; }
 
     enum class Drag { none, orbit, pan, dolly, look, divider } drag_ = Drag::none;
     double dragX_ = 0, dragY_ = 0;
     std::set<int> keysDown_;
     double movingSeconds_ = 0, watchSeconds_ = 0;
+    bool touched_ = false;  // in this turn, however long the one before took
     bool freshDocument_ = true;
     float documentTime_ = 0;
     std::optional<Document> before_;  // what was open before `document`, until that is shown
