@@ -43,7 +43,8 @@ struct Photons::State {
     int mipLevels = 1;
     gl::BlockBuffer<WaterBlock> waterBlock;
     gl::BlockBuffer<CausticBlock> causticBlock;
-    bool sunHasSlot = false;
+    gl::BlockBuffer<LightSpaceBlock> noSlots;  // of method none: light goes on as through level water
+    bool sunHasSlot = false, traced = false;
     std::int64_t photonCount = 0;
 };
 
@@ -311,6 +312,8 @@ Result<Photons> Photons::create(gl::Device& device, const PhotonSetup& setup) {
     if (!s.maps || !s.sharp || !s.deposits || !s.commands) return internalError("no memory for caustic maps");
     s.waterBlock = gl::BlockBuffer<WaterBlock>::create(device, "water");
     s.causticBlock = gl::BlockBuffer<CausticBlock>::create(device, "caustics");
+    s.noSlots = gl::BlockBuffer<LightSpaceBlock>::create(device, "no light space");
+    s.noSlots.write({});
     return Photons(std::move(state));
 }
 
@@ -324,6 +327,8 @@ void Photons::render(const frame::Context& context, const PhotonParams& params, 
     const std::span<const LightSlot> slots = views.slots();
     s.sunHasSlot = false;
     s.photonCount = 0;
+    s.traced = params.method != "none";
+    if (!s.traced) return;
     const double slope = body.waves ? body.waves->bounds().slope : 0;
     const bool air = views.airDrawn();
     for (int i = 0; i < int(slots.size()) && i < s.setup.maxSlots; ++i) {
@@ -351,6 +356,7 @@ void Photons::resolve(const frame::Context& context, const Body& body, const Bod
     s.causticBlock.bindUniform(SHOAL_BLOCK_WATER_PASS);
     body.gpuWaves->bind();
     views.bind();
+    if (!s.traced) s.noSlots.bindUniform(SHOAL_BLOCK_LIGHT_SPACE);
     gl::bindTexture(SHOAL_UNIT_CAUSTIC_MAPS, s.maps);
     gl::bindTexture(0, inputs.viewDepth);
     const bool normals = bool(inputs.normal);

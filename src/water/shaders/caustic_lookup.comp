@@ -135,9 +135,12 @@ float insideSlot(vec2 s, vec4 place, bool fades) {
     return fades ? clamp((inwards - 1.0) / kRimTexels, 0.0, 1.0) : step(0.0, inwards);
 }
 
+const float kBorderM = 0.01;
+
 bool isUnderWater(vec3 p) {
     vec4 area = waterBlock.area;
-    bool inArea = all(greaterThanEqual(p.xz, area.xy)) && all(lessThanEqual(p.xz, area.zw));
+    // A basin's walls stand exactly on the border of its area: they count.
+    bool inArea = all(greaterThanEqual(p.xz, area.xy - kBorderM)) && all(lessThanEqual(p.xz, area.zw + kBorderM));
     float surface = 0.0;
 #ifdef WATERLINE
     if (abs(p.y - waterBlock.shape.x) <= waterBlock.shape.w) surface = waveSlopeAt(p.xz).x;
