@@ -310,6 +310,7 @@ const std::vector<Entry> kAovs = {
 const std::vector<Entry> kWater = {
     {.name = "water_below",
      .scene = "pool.toml",
+     .words = {"--size", "240x135"},
      .limit = 0.0008,
      .controls = {{"no caustics", set({"water.caustics.method=none"})},
                   {"half the waves", set({"water.waves.amplitude=0.03"})},
@@ -351,7 +352,8 @@ const std::vector<Entry> kWater = {
                   {"another seed", set({"water.waves.seed=4"})}}},
     {.name = "water_paper",
      .scene = "pool.toml",
-     .words = set({"water.caustics.method=paper", "water.waves.kind=circular"}),
+     .words =
+         set({"water.caustics.method=paper", "water.waves.kind=circular", "render.width=240", "render.height=135"}),
      .limit = 0.0008,
      .controls = {{"Shoal's own", set({"water.caustics.method=shoal"})},
                   {"half the gain", set({"water.paper.gain=0.5"})},
@@ -368,25 +370,29 @@ const std::vector<Entry> kWater = {
                   {"clear water", set({"water.medium=clear"})}}},
     {.name = "aov_caustics",
      .scene = "pool.toml",
+     .words = {"--size", "160x90"},
      .layer = "caustics",
      .limit = 0.005,
      .reason = "W/m2",
      .controls = {{"half the waves", set({"water.waves.amplitude=0.03"})},
-                  {"nothing thrown up", set({"water.caustics.reflected=false"})},
+                  {"clear water", set({"water.medium=clear"})},
                   {"another index", set({"water.index=1.3"})}}},
     {.name = "aov_inscatter",
      .scene = "pool.toml",
+     .words = {"--size", "160x90"},
      .layer = "inscatter",
      .limit = 0.0005,
      .controls = {{"half the scattering", set({"water.scattering=[0.14, 0.19, 0.26]"})},
                   {"scatters evenly", set({"water.anisotropy=0"})}}},
     {.name = "aov_transmittance",
      .scene = "pool.toml",
+     .words = {"--size", "160x90"},
      .layer = "transmittance",
      .limit = 0.002,
      .controls = {{"another water", set({"water.medium=jerlov-III"})}}},
     {.name = "aov_water_depth",
      .scene = "pool.toml",
+     .words = {"--size", "160x90"},
      .layer = "waterDepth",
      .limit = 0.002,
      .reason = "metres",
@@ -404,8 +410,8 @@ Entry shipped(const std::string& name, double limit, std::vector<Control> contro
 
 // One line for each scene that ships.
 const std::vector<Entry> kShipped = {
-    shipped("plaza", 0.0041), shipped("port", 0.0021),   shipped("hall", 0.005),
-    shipped("tank", 0.005),   shipped("island", 0.0016),
+    shipped("plaza", 0.0041),  shipped("port", 0.0021), shipped("hall", 0.005),         shipped("tank", 0.005),
+    shipped("island", 0.0016), shipped("reef", 0.005),  shipped("flooded_hall", 0.005),
 };
 
 }  // namespace
