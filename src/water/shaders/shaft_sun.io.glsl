@@ -18,6 +18,13 @@ float decayOver(float k, float s) {
 }
 vec3 decayOver(vec3 k, float s) { return vec3(decayOver(k.x, s), decayOver(k.y, s), decayOver(k.z, s)); }
 
+// Integral of exp(-a - k t) from 0 to s; a + k s is hardly negative (light grows no brighter than it came in), k may be
+// so large below 0 that exp(-k s) is infinite.
+vec3 dimmedOver(vec3 k, float s, vec3 a) {
+    vec3 x = k * s, from = exp(-a);
+    return mix((from - exp(-a - x)) / k, from * (s * (1.0 - 0.5 * x)), lessThan(abs(x), vec3(1e-3)));
+}
+
 // What paths are compared by: metres, less and less of them the farther away they are and the dimmer.
 float seenLength(float lengthM) { return decayOver(waterBlock.beamAttenuation.w, lengthM); }
 
@@ -49,12 +56,12 @@ vec3 veilingLight(float depth, vec3 direction, float lengthM) {
     if (lengthM <= 0.0) return vec3(0.0);
     vec3 beam = waterBlock.beamAttenuation.rgb, kd = waterBlock.diffuseAttenuation.rgb;
     vec3 kdSun = waterBlock.sunDiffuseAttenuation.rgb;
-    vec3 sky = waterBlock.skyIrradiance.rgb * kSkyThrough * exp(-kd * depth) *
-               decayOver(beam - kd * direction.y, lengthM);
+    vec3 sky = waterBlock.skyIrradiance.rgb * kSkyThrough *
+               dimmedOver(beam - kd * direction.y, lengthM, kd * depth);
     float cosMean = -waterBlock.sunRefracted.y;
     vec3 level = waterBlock.sunIrradiance.rgb * (waterBlock.toSun.y * waterBlock.sunRefracted.w);
-    vec3 all = exp(-kdSun * depth) * decayOver(beam - kdSun * direction.y, lengthM);
-    vec3 sharp = exp(-beam * (depth / cosMean)) * decayOver(beamDecay(direction.y), lengthM);
+    vec3 all = dimmedOver(beam - kdSun * direction.y, lengthM, kdSun * depth);
+    vec3 sharp = dimmedOver(beamDecay(direction.y), lengthM, beam * (depth / cosMean));
     // Where diffuse attenuation is the stronger one there is no such light at any depth.
     vec3 smoothed = mix(max(all - sharp, vec3(0.0)), vec3(0.0), greaterThanEqual(kdSun, beam / cosMean));
     return waterBlock.beamScattering.rgb * (sky + level * smoothed) * (kInverse4Pi / kMeanCosine);
