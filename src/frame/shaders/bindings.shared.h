@@ -23,13 +23,13 @@
 #define SHOAL_UNIT_OCCLUSION 11
 #define SHOAL_UNIT_EMISSION 12
 #define SHOAL_UNIT_OPAQUE_COPY 13
-#define SHOAL_UNIT_OPAQUE_DEPTH 14    // view depth behind transparent surfaces
-#define SHOAL_UNIT_ENVIRONMENT 16     // lat-long or cube, sharp
-#define SHOAL_UNIT_SPECULAR 17        // prefiltered by roughness
+#define SHOAL_UNIT_OPAQUE_DEPTH 14            // view depth behind transparent surfaces
+#define SHOAL_UNIT_ENVIRONMENT 16             // lat-long or cube, sharp
+#define SHOAL_UNIT_SPECULAR 17                // prefiltered by roughness
 #define SHOAL_UNIT_ENVIRONMENT_IRRADIANCE 18  // LightOverrides::environmentIrradiance
-#define SHOAL_UNIT_SUN_SHADOW 19      // depth array, plain (blocker search)
-#define SHOAL_UNIT_SUN_SHADOW_CMP 20  // the same with comparison
-#define SHOAL_UNIT_SPOT_SHADOW 21     // depth array with comparison
+#define SHOAL_UNIT_SUN_SHADOW 19              // depth array, plain (blocker search)
+#define SHOAL_UNIT_SUN_SHADOW_CMP 20          // the same with comparison
+#define SHOAL_UNIT_SPOT_SHADOW 21             // depth array with comparison
 #define SHOAL_UNIT_AO 22
 #define SHOAL_UNIT_SUN_IRRADIANCE 23  // LightOverrides::sunIrradiance
 

@@ -18,7 +18,7 @@ SHOAL_PAPER_BLOCK_BEGIN {
     mat4 lightFromWorld;      // rigid
     mat4 worldFromLight;      // rigid
     mat4 lightClipFromWorld;  // for the water mask
-    vec4 lightPlane;    // light space to its screen: scale of x, y and offset; lamps: scale of x / -z, y / -z
+    vec4 lightPlane;          // light space to its screen: scale of x, y and offset; lamps: scale of x / -z, y / -z
     vec4 lightDepth;    // sun: z = x depth + y; lamps: z = x / depth; z, w: least cosine of a lamp's cone, 1 / width
     vec4 lightAxis;     // xyz: where a spot shines, world
     vec4 ray;           // xyz: where the sun's light travels, world; lamps: their place

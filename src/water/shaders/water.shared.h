@@ -19,12 +19,12 @@ SHOAL_WATER_BLOCK_BEGIN {
     vec4 beamScattering;      // 1/m: Optics::beamScattering()
     vec4 diffuseAttenuation;  // 1/m: Kd of light from above and from the sky
     vec4 sunDiffuseAttenuation;  // 1/m: Kd of the sun's light at its angle (diffuseAttenuationAt)
-    vec4 scattering;          // 1/m: all of it, b
-    vec4 phase;               // of optics.lib.glsl's waterPhase
-    vec4 toSun;               // unit, world; w: 1 where there is a sun
-    vec4 sunIrradiance;       // W/m2 on a plane facing the sun (in the air)
-    vec4 sunRefracted;        // unit: where the sun's light travels under level water; w: Fresnel transmittance there
-    vec4 skyIrradiance;       // W/m2 of the environment on a level plane in the air
+    vec4 scattering;             // 1/m: all of it, b
+    vec4 phase;                  // of optics.lib.glsl's waterPhase
+    vec4 toSun;                  // unit, world; w: 1 where there is a sun
+    vec4 sunIrradiance;          // W/m2 on a plane facing the sun (in the air)
+    vec4 sunRefracted;   // unit: where the sun's light travels under level water; w: Fresnel transmittance there
+    vec4 skyIrradiance;  // W/m2 of the environment on a level plane in the air
 }
 #ifndef __cplusplus
 waterBlock

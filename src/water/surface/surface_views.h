@@ -14,8 +14,8 @@ struct ChosenView {
     Mirror shows = kAirMirror;
 };
 
-// At most two. The eye above the water: what stands there, mirrored, and what lies in the water, along bent rays; below:
-// what lies there, mirrored, and what stands above as the window upwards shows it. Nothing that cannot be seen.
+// At most two. The eye above the water: what stands there, mirrored, and what lies in the water, along bent rays;
+// below: what lies there, mirrored, and what stands above as the window upwards shows it. Nothing that cannot be seen.
 std::vector<ChosenView> chooseViews(const frame::Context& context, const SurfaceParams& params, const Body& body,
                                     const Bounds& sceneBounds);
 
