@@ -198,7 +198,7 @@ void addDemo(CLI::App& app, DemoOptions& o) {
     verb->add_option("--size", o.size, "WIDTHxHEIGHT in pixels; default: the scenes'");
     verb->add_option("--device", o.device, kDeviceHelp);
     verb->add_flag("--film", o.film, "a film of each scene too");
-    verb->footer("\nExample:\n  shoal demo -o pictures --size 640x360\n");
+    verb->footer("\nExample:\n  shoal demo -o pictures --size 320x180\n");
 }
 
 void addBench(CLI::App& app, BenchOptions& o) {
