@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <shoal/core/result.h>
@@ -21,6 +22,11 @@ struct Row {
     std::string renderer;  // GL_RENDERER
     std::string method;    // how it was measured, with the spread
 };
+
+// A row without a baseline.
+inline Row rowOf(const char* id, double value, const char* unit, std::string method) {
+    return Row{.id = id, .value = value, .unit = unit, .peer = {}, .renderer = {}, .method = std::move(method)};
+}
 
 struct Settings {
     bool peers = false;

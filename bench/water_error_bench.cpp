@@ -23,10 +23,6 @@ namespace {
 constexpr int kSide = 512;             // pixels of water_patch.toml, 4 m
 constexpr int kReferenceRays = 12288;  // a side
 
-Row rowOf(const char* id, double value, const char* unit, std::string method) {
-    return Row{.id = id, .value = value, .unit = unit, .peer = {}, .renderer = {}, .method = std::move(method)};
-}
-
 struct Error2d {
     double mean = 0, rmse = 0, mae = 0;  // errors relative to the exact mean
 };

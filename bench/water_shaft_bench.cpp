@@ -18,10 +18,6 @@ namespace analytic = water::analytic;
 // Odd, so that the middle pixel looks along the camera's axis.
 const Overrides kOdd = {"render.width=321", "render.height=181"};
 
-Row rowOf(const char* id, double value, const char* unit, std::string method) {
-    return Row{.id = id, .value = value, .unit = unit, .peer = {}, .renderer = {}, .method = std::move(method)};
-}
-
 // One straight look through level water: where to, where the sun stands, how long the way in the water is.
 struct Look {
     double vy, length, zenithDeg;

@@ -8,10 +8,6 @@ namespace shoal::bench {
 
 namespace {
 
-Row rowOf(const char* id, double value, const char* unit, std::string method) {
-    return Row{.id = id, .value = value, .unit = unit, .peer = {}, .renderer = {}, .method = std::move(method)};
-}
-
 // The floor of water_speed.toml, an instance of its own.
 constexpr float kFloorId = 1;
 

@@ -19,10 +19,6 @@ namespace analytic = water::analytic;
 constexpr double kTexel = 1.0 / 128;  // metres a pixel of the check scenes
 constexpr int kSide = 512;            // pixels
 
-Row rowOf(const char* id, double value, const char* unit, std::string method) {
-    return Row{.id = id, .value = value, .unit = unit, .peer = {}, .renderer = {}, .method = std::move(method)};
-}
-
 double degrees(double d) { return d * 3.14159265358979323846 / 180; }
 
 // Light at zenith angle `zenithDeg` that travels towards +x.

@@ -4,15 +4,13 @@
 
 #include <algorithm>
 
+#include "frame/fullscreen.h"
+
 namespace shoal::pipeline {
 
 namespace {
 
 constexpr int kDraftPhotons = 8;  // a draft has one in so many
-
-gl::Texture colorTarget(gl::Device& device, int width, int height, const char* label) {
-    return gl::Texture::create(device, {.format = GL_RGBA16F, .width = width, .height = height, .label = label});
-}
 
 void clear(const gl::Texture& texture) {
     const float zero[4] = {0, 0, 0, 0};
@@ -41,9 +39,9 @@ frame::Medium WaterPass::medium() const {
 
 Result<void> WaterPass::resize(int width, int height) {
     if (direct_ && direct_.width() == width && direct_.height() == height) return {};
-    direct_ = colorTarget(device_, width, height, "water light");
-    ambient_ = colorTarget(device_, width, height, "water sky light");
-    inscatter_ = colorTarget(device_, width, height, "in-scatter");
+    direct_ = frame::makeTarget(device_, GL_RGBA16F, width, height, "water light");
+    ambient_ = frame::makeTarget(device_, GL_RGBA16F, width, height, "water sky light");
+    inscatter_ = frame::makeTarget(device_, GL_RGBA16F, width, height, "in-scatter");
     if (!direct_ || !ambient_ || !inscatter_) return internalError("no memory for water of this size");
     clear(direct_), clear(ambient_), clear(inscatter_);
     return {};
@@ -95,8 +93,8 @@ Result<void> WaterPass::resizeMirror(const light::View& view, MirrorTargets& mir
         SHOAL_TRY(mirror.targets->resize(view.width, view.height));
     }
     if (mirror.direct && mirror.direct.width() == view.width && mirror.direct.height() == view.height) return {};
-    mirror.direct = colorTarget(device_, view.width, view.height, "water light, mirrored");
-    mirror.ambient = colorTarget(device_, view.width, view.height, "water sky light, mirrored");
+    mirror.direct = frame::makeTarget(device_, GL_RGBA16F, view.width, view.height, "water light, mirrored");
+    mirror.ambient = frame::makeTarget(device_, GL_RGBA16F, view.width, view.height, "water sky light, mirrored");
     if (!mirror.direct || !mirror.ambient) return internalError("no memory for a mirrored view");
     return {};
 }
