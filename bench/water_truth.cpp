@@ -9,6 +9,7 @@
 
 #include "bench/harness.h"
 #include "bench/water_stage.h"
+#include "tests/support/misplaced_photons.h"
 
 namespace shoal::bench {
 
@@ -318,6 +319,26 @@ Result<std::vector<Row>> reflected(const Settings& settings) {
               "mean irradiance of a ceiling over three periods against the reflected flux; water_ceiling.toml")};
 }
 
+Result<std::vector<Row>> misplaced(const Settings& settings) {
+    SHOAL_TRY_ASSIGN(WaterStage stage, WaterStage::create(settings));
+    double worst = 0;
+    std::string shares;
+    for (const double zenith : {0.0, 20.0, 40.0}) {
+        SHOAL_TRY(stage.load("water_boxes", {toSun(zenith)}));
+        gl::setKnownState();
+        SHOAL_TRY_ASSIGN(const double share,
+                         test::misplacedPhotons(stage.device(), stage.pipeline().scene(), stage.pipeline().content()));
+        char text[40];
+        std::snprintf(text, sizeof text, "%s%.2f", shares.empty() ? "" : ", ", 100 * share);
+        shares += text;
+        worst = std::max(worst, share);
+    }
+    return std::vector<Row>{
+        rowOf("water.misplaced_photons", 100 * worst, "%",
+              "of 160 k photons, more than 2 cm off what a ray of theirs meets; sun 0, 20, 40 deg: " + shares +
+                  " %; water_boxes.toml")};
+}
+
 }  // namespace
 
 std::vector<Benchmark> waterTruthBenchmarks() {
@@ -331,6 +352,7 @@ std::vector<Benchmark> waterTruthBenchmarks() {
         {"water.fold_position_texels", "place of a fold of light beyond the focus", fold},
         {"water.patch_rmse", "irradiance under six crossing waves against traced rays, with and without the sun's disc",
          patch},
+        {"water.misplaced_photons", "photons among boxes that end where they should not", misplaced},
         {"water.flicker", "change of light on still points while the eye moves", flicker},
         {"water.jerlov_error", "light left at depth in ten kinds of water", jerlov},
         {"water.snell_radius_px", "size of the window upwards", window},
