@@ -33,6 +33,44 @@ TEST_F(WaterPhotons, SinusoidAgreesWithTheClosedForm) {
         EXPECT_LT(sinusoidError(rig, 2, 160000, std::vector<double>{0, 0.5, 1, 1.5}, zenith), 0.01) << zenith << " deg";
 }
 
+// Murky water: as exact where 1e-4 of the light is left as where all of it is, picture included.
+TEST_F(WaterPhotons, LittleLightIsExactToo) {
+    constexpr double kLeft = 1e-4, kDepth = 4;
+    FloorRig rig(device());
+    const auto seen = [&](const water::WaveField& waves, double zenithDeg, double attenuation) {
+        FloorSetup setup;
+        setup.waves = &waves, setup.depth = float(kDepth), setup.center = {0, 0};
+        setup.zenithDeg = float(zenithDeg), setup.attenuation = float(attenuation);
+        rig.prepare(setup);
+        rig.trace();
+        rig.lookUp();
+        return rig.irradiance();
+    };
+    const water::WaveField level = levelWater(), sinusoid = sinusoidS1();
+    for (const double zenithDeg : {0.0, 60.0}) {
+        const double zenith = zenithDeg * kPiD / 180;
+        const double metres = kDepth / std::sqrt(1 - std::pow(std::sin(zenith) / water::kWaterIndex, 2));
+        const double c = -std::log(kLeft) / metres;
+        const double exact = water::analytic::flatIrradiance(water::kWaterIndex, c, zenith, kDepth);
+        const std::vector<float> flat = seen(level, zenithDeg, c);
+        const int n = rig.resolution();
+        double worst = 0;
+        for (int j = 8; j < n - 8; ++j)
+            for (int i = 8; i < n - 8; ++i)
+                worst = std::max(worst, std::abs(double(flat[std::size_t(j * n + i)]) / exact - 1));
+        EXPECT_LT(worst, 0.01) << zenithDeg << " deg";
+    }
+    const double c = -std::log(kLeft) / kDepth;
+    const std::vector<float> wavy = seen(sinusoid, 0, c);
+    for (const double x : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+        const double exact = water::analytic::sinusoidIrradiance({.attenuation = c, .zenithAngle = 0}, kDepth, x);
+        // Pixels are 1/128 m; the mean of two about x.
+        const std::size_t i = std::size_t(std::lround((x + 2) * 128)), row = 300 * 512;
+        const double value = 0.5 * (double(wavy[row + i - 1]) + double(wavy[row + i]));
+        EXPECT_NEAR(value / exact, 1, 0.01) << x;
+    }
+}
+
 TEST_F(WaterPhotons, FocusAndFoldsAreWhereTheyShouldBe) {
     FloorRig rig(device());
     EXPECT_NEAR(focusDepthRatio(rig), 1, 0.01);

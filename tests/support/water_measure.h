@@ -103,14 +103,18 @@ public:
     }
     void lookUp() { photons_.resolve(context_, body_, lights_, views_, {viewDepth_, normal_}, {direct_, ambient_}); }
 
-    // The map of a slot, R32F as it is: irradiance on a level plane over E_perp; row j at z = origin.y + (j + .5)
-    // texel.
+    // The map of a slot, irradiance on a level plane over E_perp, times what level water leaves down to the floor; row
+    // j at z = origin.y + (j + .5) texel.
     std::vector<float> map(int slot = 0, int layer = 0) const {
         const gl::TextureView maps = photons_.maps();
         std::vector<float> all(std::size_t(maps.width) * std::size_t(maps.width));
         glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
         glGetTextureSubImage(maps.name, 0, 0, 0, 2 * slot + layer, maps.width, maps.width, 1, GL_RED, GL_FLOAT,
                              GLsizei(all.size() * 4), all.data());
+        const water::LightSlot& s = this->slot(slot);
+        if (s.reflected || s.light >= 0) return all;
+        const double left = std::exp(-double(setup_.attenuation) * double(setup_.depth) / double(s.source.y));
+        for (float& value : all) value = float(double(value) * left);
         return all;
     }
     // What the lookup gives for the floor, red; row 0 at the least z.

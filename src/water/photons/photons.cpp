@@ -65,6 +65,22 @@ constexpr double kReflectedShare = 0.125;
 constexpr float kFewTexels = 1.5f;
 constexpr float kBlends = 2;  // maps that a lookup blends at most
 
+// A photon counts for no more than this times what level water leaves of one at the same place: only waves under a low
+// sun exceed it, where e^-6 of the light is left.
+constexpr double kMostLeft = 32;
+
+// The most that a photon of a slot may be dimmed less than light in level water: one that goes straight down, from a
+// trough, where level water's light goes aslant.
+double mostLeft(const LightSlot& slot, const Body& body) {
+    const Vec3 beam = body.optics.beamAttenuation();
+    const double least = double(std::min({beam.x, beam.y, beam.z}));
+    if (slot.reflected || least <= 0) return 1;
+    if (slot.light >= 0) return kMostLeft;
+    const double wave = body.waves ? double(body.waves->bounds().height) : 0;
+    const double depth = std::max(double(body.params.level) - double(slot.bottom), 0.0);
+    return std::min(std::exp(least * (depth * (1 / double(slot.source.y) - 1) + wave)), kMostLeft);
+}
+
 // Texels in height of a map with its mips in a row above it.
 int shelved(int side) { return side + side / 2; }
 
@@ -130,14 +146,14 @@ State::Variant variantOf(const LightSlot& slot, const Body& body, const BodyLigh
 }
 
 void depositSlot(State& s, const frame::Context& context, int index, const LightSlot& slot, int photons,
-                 State::Variant variant, double slope, int fine) {
+                 State::Variant variant, double slope, double left, int fine) {
     const gl::PassScope pass(context.timer, "caustic photons");
     const EmissionLattice lattice = emissionLattice(slot, s.setup.resolution, photons);
     const double texelsPerM = fine / double(slot.texel), cellTexels = double(lattice.cellM) * texelsPerM;
     const int side = s.setup.resolution * fine;
     const double mostFlux = slot.light >= 0 ? 4 : std::min(4.0, std::sqrt(1 + slope * slope));
     // All of the slot's flux in one texel still fits, with room for the rounding of each photon.
-    const double most = double(lattice.countX) * double(lattice.countZ) * (cellTexels * cellTexels * mostFlux);
+    const double most = double(lattice.countX) * double(lattice.countZ) * (cellTexels * cellTexels * mostFlux * left);
     const double units = std::exp2(std::floor(std::log2(0.98 * 4294967296.0 / most)));
 
     const GLuint zero = 0;
@@ -149,7 +165,7 @@ void depositSlot(State& s, const frame::Context& context, int index, const Light
     program.set(1, Vec4{float(lattice.firstX), float(lattice.firstZ), float(lattice.countX), float(lattice.countZ)});
     program.set(2, Vec4{lattice.cellM, float(texelsPerM), float(units * cellTexels * cellTexels), float(side)});
     const auto corner = [&](float origin) { return float(std::floor(double(origin) * texelsPerM + 0.5)); };
-    program.set(3, Vec3{corner(slot.origin.x), corner(slot.origin.y), float(mostFlux)});
+    program.set(3, Vec4{corner(slot.origin.x), corner(slot.origin.y), float(mostFlux), float(left)});
     s.deposits.bindStorage(SHOAL_STORAGE_WATER);
     program.dispatch(lattice.countX, lattice.countZ);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
@@ -338,7 +354,7 @@ void Photons::render(const frame::Context& context, const PhotonParams& params, 
         const bool alone = slot.light < 0 && !slot.reflected && cascadesOf(slot, slots) == 1;
         const int fine = alone && disc >= kSeenDisc && disc < kWideDisc ? s.mostFine : 1;
         depositSlot(s, context, i, slot, photonsOf(slot, slots, params.photons), variantOf(slot, body, lights, air),
-                    slope, fine);
+                    slope, mostLeft(slot, body), fine);
         resolveSlot(s, context, i, disc, fine, alone);
     }
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);

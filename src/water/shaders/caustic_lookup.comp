@@ -169,11 +169,9 @@ void main() {
     float pixelM = causticBlock.size.z * viewDepth + causticBlock.size.w;
     bool behind = false;
 
-    // The sun's beam through level water: what all channels lose, and what each loses beyond that.
-    float depth = max(waterBlock.shape.x - p.y, 0.0), metres = -depth / waterBlock.sunRefracted.y;
-    vec3 excess = waterBlock.beamAttenuation.rgb - waterBlock.beamAttenuation.w;
-    vec3 tint = exp(-excess * metres);
-    vec3 beam = tint * exp(-waterBlock.beamAttenuation.w * metres);
+    // What is left of the sun's beam through level water: maps hold light over that.
+    float depth = max(waterBlock.shape.x - p.y, 0.0);
+    vec3 beam = exp(waterBlock.beamAttenuation.rgb * (depth / waterBlock.sunRefracted.y));
     vec3 onLevel = waterBlock.sunIrradiance.rgb * (waterBlock.toSun.w * waterBlock.toSun.y * waterBlock.sunRefracted.w);
 
     vec3 direct = vec3(0.0);
@@ -215,13 +213,13 @@ void main() {
             from = slot + 1;
             if (left <= 0.0) break;
         }
-        vec3 through = reflected ? vec3(1.0) : tint;
+        vec3 through = reflected ? vec3(1.0) : beam;
 #ifndef NO_LAMPS
         vec4 source = lightSpace.slots[group].source;
         if (source.w > 0.5) {
             float scale = lampScale(p.y, waterBlock.shape.x, source.y);
             value *= scale * scale;
-            if (!reflected) through = exp(-excess * (depth * length(toLight)));
+            if (!reflected) through = exp(-waterBlock.beamAttenuation.rgb * levelPath(p, group));
         }
 #endif
         direct += lightSpace.slots[group].irradiance.rgb * through * (value * max(facing, 0.0));

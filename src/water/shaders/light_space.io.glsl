@@ -1,6 +1,7 @@
 // Light space on the GPU: slots, and the depth of what light meets. LightViews::bind() binds what it reads.
 //   vec2 s = lightSpaceOf(P, slot)          light-space x, z of a world point (m)
 //   vec2 t = lightTexelOf(s, slot)          the same in texels, [0, resolution] within the slot's square
+//   float l = levelPath(P, slot)            metres that the slot's light goes through level water to a world point
 //   float y = litHeight(ivec2 t, slot, layer)   height of what is lit there; kNothingLit where there is nothing
 #ifndef SHOAL_WATER_LIGHT_SPACE_IO_GLSL
 #define SHOAL_WATER_LIGHT_SPACE_IO_GLSL
@@ -19,6 +20,18 @@ vec2 lightSpaceOf(vec3 p, int slot) {
 }
 
 vec2 lightTexelOf(vec2 s, int slot) { return (s - lightSpace.slots[slot].place.xy) * lightSpace.slots[slot].place.w; }
+
+// 0 above the level, and for light that the surface throws up.
+float levelPath(vec3 p, int slot) {
+    vec4 mean = lightSpace.slots[slot].mean;
+    float slant = 1.0 / mean.z;
+#ifndef NO_LAMPS
+    vec4 source = lightSpace.slots[slot].source;
+    vec3 way = source.xyz - p;
+    if (source.w > 0.5) slant = length(way) / max(abs(way.y), 1e-3);
+#endif
+    return mean.w < 0.0 ? max(lightSpace.slots[slot].reach.z - p.y, 0.0) * slant : 0.0;
+}
 
 // Texels outside the square count as nothing.
 float litHeight(ivec2 texel, int slot, int layer) {

@@ -5,7 +5,8 @@
 //   float travel = photonTravel(p, slot, layer);   metres of height from the surface to what it meets; < 0: nothing
 //   vec2 s = photonPlace(p, slot, travel);         light space at ANY travel in between (0: at the surface)
 //   vec4 j = photonJacobian(p, slot, travel);      columns ds/dx (xy), ds/dz (zw)
-//   float e = photonFlux(p, travel);               flux a m2 of level plane, in units of the slot's irradiance
+//   float e = p.flux * photonLeft(p, slot, travel);   flux a m2 of level plane, in units of the slot's irradiance, over
+//                                                  what the channel that is dimmed least keeps in level water
 // A cell of c x c metres of the level plane then puts e c^2 onto the parallelogram with edges c j.xy, c j.zw around s.
 // What a slot does not need is left out at compile time, for llvmpipe runs both sides of every if: NO_LAMPS (parallel
 // light only), NO_WAVE_SHADOWS (light steeper than any slope), NO_AIR (no air layer).
@@ -135,10 +136,16 @@ Photon photonAt(vec2 xz, int slot) {
     return p;
 }
 
-float photonFlux(Photon p, float travel) { return p.flux * exp(-p.dimming * travel); }
-
 // World height at a travel.
 float photonHeight(Photon p, int slot, float travel) { return p.start.y + lightSpace.slots[slot].mean.w * travel; }
+
+// How much of it the water lets through, as a multiple of what level water does down to the same place: near 1 however
+// murky the water is, so that sums of it keep their digits.
+float photonLeft(Photon p, int slot, float travel) {
+    vec2 xz = p.start.xz + p.drift * travel;
+    vec3 there = vec3(xz.x, photonHeight(p, slot, travel), xz.y);
+    return exp(waterBlock.beamAttenuation.w * levelPath(there, slot) - p.dimming * travel);
+}
 
 vec2 photonPlace(Photon p, int slot, float travel) {
     vec4 mean = lightSpace.slots[slot].mean;

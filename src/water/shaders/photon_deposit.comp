@@ -13,7 +13,8 @@ layout(std430, binding = SHOAL_STORAGE_WATER) buffer Deposits { uint deposits[];
 layout(location = 0) uniform int slot;
 layout(location = 1) uniform vec4 lattice;   // first cell's x, z; cells along x, z
 layout(location = 2) uniform vec4 cell;      // m; texels a metre; units that a photon of flux 1 brings; side in texels
-layout(location = 3) uniform vec3 corner;    // of the square, texels from the world's 0; the most flux a photon brings
+// Of the square, texels from the world's 0; the most flux a photon brings, the most of it left over level water's.
+layout(location = 3) uniform vec4 corner;
 
 const float kThinnest = 0.06;      // texels: narrower footprints are made this wide
 const float kLeastRun = 0.01;      // texels: edges run at least so far along x and z
@@ -36,7 +37,8 @@ void main() {
     vec4 inner = lightSpace.slots[slot].inner;
     bool wasted = all(greaterThan(centre, inner.xy)) && all(lessThan(centre, inner.zw));
     vec4 j = photonJacobian(p, slot, travel) * (cell.x * cell.y);
-    float amount = travel >= 0.0 && !wasted ? min(p.flux, corner.z) * exp(-p.dimming * max(travel, 0.0)) * cell.z : 0.0;
+    float left = min(photonLeft(p, slot, max(travel, 0.0)), corner.w);
+    float amount = travel >= 0.0 && !wasted ? min(p.flux, corner.z) * left * cell.z : 0.0;
 
     // Edges of the footprint in texels: not thinner, not larger than what can be laid down.
     vec2 a = j.xy, b = j.zw;
@@ -83,14 +85,14 @@ void main() {
         vec4 high = vec4(edgeAt(v0, a, inverseRise.x, upperY), edgeAt(v3, a, inverseRise.x, upperY),
                          edgeAt(v0, b, inverseRise.y, upperY), edgeAt(v1, b, inverseRise.y, upperY));
         vec4 l = max(vec4(lo.x) - low, vec4(0.0)), h = max(vec4(lo.x) - high, vec4(0.0));
-        float left = dot(along, (l - h) * (l + h));
+        float before = dot(along, (l - h) * (l + h));
         for (int x = 0; x < count.x; ++x) {
             float upperX = lo.x + float(x) + 1.0;
             l = max(vec4(upperX) - low, vec4(0.0)), h = max(vec4(upperX) - high, vec4(0.0));
             float area = dot(along, (l - h) * (l + h));
             // What is rounded off here is laid down in the next texel.
-            laid += max(area - left, 0.0);
-            left = area;
+            laid += max(area - before, 0.0);
+            before = area;
             uint units = uint(laid + 0.5);
             if (units > laidUnits) atomicAdd(deposits[row + x], units - laidUnits);
             laidUnits = units;
