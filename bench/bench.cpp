@@ -20,8 +20,9 @@ namespace shoal::bench {
 const std::vector<Benchmark>& benchmarks() {
     static const std::vector<Benchmark> all = [] {
         std::vector<Benchmark> every;
-        for (const auto& some : {frameBenchmarks(), waterTruthBenchmarks(), waterShaftBenchmarks(),
-                                 waterSceneBenchmarks(), waterSpeedBenchmarks(), viewBenchmarks()})
+        for (const auto& some :
+             {frameBenchmarks(), waterTruthBenchmarks(), waterShaftBenchmarks(), waterSceneBenchmarks(),
+              waterSpeedBenchmarks(), waterFrameBenchmarks(), viewBenchmarks()})
             every.insert(every.end(), some.begin(), some.end());
         return every;
     }();

@@ -15,6 +15,7 @@
 #include <shoal/io/image.h>
 #include <shoal/pipeline/pipeline.h>
 
+#include "bench/frame_row.h"
 #include "bench/harness.h"
 #include "bench/peers/f3d.h"
 
@@ -25,21 +26,6 @@ namespace {
 constexpr int kWidth = 1280, kHeight = 720;
 constexpr const char* kTown = "scenes/town_street.glb";
 constexpr const char* kStartupVariable = "SHOAL_BENCH_STARTUP";  // set for the processes that time their own start
-
-struct Stage {
-    std::unique_ptr<gl::Device> device;
-    std::unique_ptr<pipeline::Pipeline> pipeline;
-};
-
-Result<Stage> makeStage(const std::string& device) {
-    Stage stage;
-    gl::DeviceOptions options;
-    options.device = device;
-    options.log = stderrSink();
-    SHOAL_TRY_ASSIGN(stage.device, gl::Device::create(options));
-    SHOAL_TRY_ASSIGN(stage.pipeline, pipeline::Pipeline::create(*stage.device));
-    return stage;
-}
 
 // Start-up is measured in processes of its own (measureStartupIfAsked): this one has its libraries and caches warm.
 Result<std::vector<Row>> startup(const Settings& settings) {
@@ -57,72 +43,18 @@ Result<std::vector<Row>> startup(const Settings& settings) {
     return std::vector<Row>{row};
 }
 
-struct PassSums {
-    std::vector<std::string> names;
-    std::map<std::string, std::vector<double>> times;
-    void add(const std::vector<gl::PassTime>& passes) {
-        for (const gl::PassTime& pass : passes) {
-            if (!times.contains(pass.name)) names.push_back(pass.name);
-            times[pass.name].push_back(pass.timeMs);
-        }
-    }
-};
-
-// Median time of a frame of an orbit round the scene, as a film draws it: one sample, temporal antialiasing.
-Result<std::vector<Row>> frameRow(const Settings& settings, const char* id, const std::string& file,
-                                  std::vector<scene::Override> overrides, const char* what) {
-    SHOAL_TRY_ASSIGN(const Stage stage, makeStage(settings.device));
-    SHOAL_TRY(stage.pipeline->open(file, overrides));
-    pipeline::FrameRequest request;
-    request.width = kWidth;
-    request.height = kHeight;
-    request.antialiasing = "temporal";
-    const Bounds bounds = stage.pipeline->content().focus;
-    const auto drawFrame = [&](int i) -> Result<void> {
-        const float angle = 0.6f + 0.01f * float(i);
-        const Vec3 toEye{std::cos(0.35f) * std::sin(angle), std::sin(0.35f), std::cos(0.35f) * std::cos(angle)};
-        request.camera =
-            light::cameraLookingAt(bounds.center() + toEye * (0.9f * bounds.radius()), bounds.center(), radians(50));
-        request.frameIndex = std::uint32_t(i);
-        request.time = float(i) / 30;
-        SHOAL_TRY(stage.pipeline->render(request));
-        // Reading one pixel's worth waits for the frame on any driver.
-        SHOAL_TRY(stage.pipeline->readDisplay());
-        return {};
-    };
-    constexpr int kWarmUp = 3;
-    std::vector<double> times;
-    Result<void> drawn;
-    const int frameCount = std::max(settings.repetitions * 3, 9);
-    for (int i = 0; i < kWarmUp + frameCount && drawn; ++i) {
-        const double seconds = timed([&] { drawn = drawFrame(i); });
-        if (i >= kWarmUp) times.push_back(seconds * 1000);
-    }
-    SHOAL_TRY(drawn);
-    const Spread spread = spreadOf(times);
-    stage.pipeline->setTiming(true);
-    PassSums sums;
-    for (int i = 0; i < settings.repetitions; ++i) {
-        SHOAL_TRY(drawFrame(kWarmUp + frameCount + i));
-        sums.add(stage.pipeline->stats().passes);
-    }
-    std::string passes;
-    for (const std::string& name : sums.names) {
-        char text[80];
-        std::snprintf(text, sizeof text, "%s%s %.1f", passes.empty() ? "" : ", ", name.c_str(),
-                      spreadOf(sums.times[name]).median);
-        passes += text;
-    }
-    note("  %s passes, ms (%s): %s", id, gl::FrameTimer::method(*stage.device), passes.c_str());
-    Row row{.id = id, .value = spread.median, .unit = "ms", .peer = {}, .renderer = {}, .method = {}};
-    row.method = spread.describe("ms") + "; " + what + ", 1280x720, temporal, wall clock with read back";
-    return std::vector<Row>{row};
+// An orbit round what the file holds.
+std::optional<light::Camera> orbit(const pipeline::Pipeline& pipeline, int i) {
+    const Bounds bounds = pipeline.content().focus;
+    const float angle = 0.6f + 0.01f * float(i);
+    const Vec3 toEye{std::cos(0.35f) * std::sin(angle), std::sin(0.35f), std::cos(0.35f) * std::cos(angle)};
+    return light::cameraLookingAt(bounds.center() + toEye * (0.9f * bounds.radius()), bounds.center(), radians(50));
 }
 
 Result<std::vector<Row>> sceneRow(const Settings& settings, const char* id, const char* relative) {
     const std::string file = dataFile(settings, id, relative);
     if (file.empty()) return std::vector<Row>{};
-    return frameRow(settings, id, file, {}, relative);
+    return frameRow(settings, id, file, relative, orbit);
 }
 
 // 100 characters in motion, ten each of the pack's nine (one twice).
@@ -140,8 +72,8 @@ Result<std::vector<Row>> skinned(const Settings& settings) {
     }
     const std::string scene = settings.scratchDir + "/skinned.toml";
     SHOAL_TRY(io::writeFileAtomically(scene, std::string_view(text)));
-    return frameRow(settings, "frame.skinned_100_ms", scene, {},
-                    "100 walking characters of characters/uacp on a plane");
+    return frameRow(settings, "frame.skinned_100_ms", scene, "100 walking characters of characters/uacp on a plane",
+                    orbit);
 }
 
 Result<std::vector<Row>> memory(const Settings& settings) {

@@ -50,6 +50,7 @@ std::vector<Benchmark> waterErrorBenchmarks(), waterPaperBenchmarks();  // in wa
 std::vector<Benchmark> waterTruthBenchmarks();
 std::vector<Benchmark> waterShaftBenchmarks();
 std::vector<Benchmark> waterSceneBenchmarks();
+std::vector<Benchmark> waterFrameBenchmarks();
 std::vector<Benchmark> viewBenchmarks();
 
 // In the processes that frame.startup_ms starts: times the start, prints it and ends the process; elsewhere does
