@@ -20,33 +20,7 @@ namespace shoal::bench {
 
 namespace {
 
-constexpr int kSide = 512;             // pixels of water_patch.toml, 4 m
-constexpr int kReferenceRays = 12288;  // a side
-
-struct Error2d {
-    double mean = 0, rmse = 0, mae = 0;  // errors relative to the exact mean
-};
-
-// `matched`: after `values` are scaled to the exact mean.
-Error2d errorOf(const std::vector<double>& values, const Image& exact, bool matched) {
-    double mean = 0, exactMean = 0;
-    const double count = double(values.size());
-    for (std::size_t i = 0; i < values.size(); ++i) mean += values[i] / count, exactMean += exact.pixels[i] / count;
-    const double scale = matched ? exactMean / mean : 1;
-    double squares = 0, absolute = 0;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        const double d = values[i] * scale - double(exact.pixels[i]);
-        squares += d * d / count, absolute += std::abs(d) / count;
-    }
-    return {mean, std::sqrt(squares) / exactMean, absolute / exactMean};
-}
-
-std::vector<double> channelOf(const Image& image) {
-    std::vector<double> values;
-    for (int y = 0; y < image.height; ++y)
-        for (int x = 0; x < image.width; ++x) values.push_back(double(*image.at(x, y)));
-    return values;
-}
+constexpr int kSide = 512;  // pixels of water_patch.toml, 4 m
 
 // P6 and its exact irradiance 2 m down, a pixel a bin.
 struct Patch {
@@ -55,10 +29,8 @@ struct Patch {
 };
 Result<Patch> patchOf(MethodPair& pair) {
     SHOAL_TRY_ASSIGN(water::WaveField waves, wavesOf(pair.pipeline(Method::shoal).scene()));
-    const water::FloorBins bins{{-2, -2}, {2, 2}, kSide, kSide, true};
-    water::FloorResult floor =
-        water::traceFloor(waves, water::kWaterIndex, 0, {0, 1, 0}, 0, 2, bins, kReferenceRays, 1);
-    return Patch{std::move(waves), std::move(floor.irradiance)};
+    Image exact = exactPatch(waves, 0);
+    return Patch{std::move(waves), std::move(exact)};
 }
 
 Result<std::vector<Row>> errorFalloff(const Settings& settings) {
@@ -67,7 +39,7 @@ Result<std::vector<Row>> errorFalloff(const Settings& settings) {
     SHOAL_TRY_ASSIGN(const Patch patch, patchOf(pair));
     SHOAL_TRY_ASSIGN(const Image few, pair.draw(Method::shoal, "caustics"));
     SHOAL_TRY_ASSIGN(const Image many, pair.draw(Method::paper, "caustics"));
-    const Error2d a = errorOf(channelOf(few), patch.exact, false), b = errorOf(channelOf(many), patch.exact, false);
+    const PictureError a = errorOf(few, patch.exact), b = errorOf(many, patch.exact);
     char text[160];
     std::snprintf(text, sizeof text, "P6, D = 2, 512 x 512: RMSE %.2f %% with 160 k photons, %.2f %% with 1 M",
                   100 * a.rmse, 100 * b.rmse);
@@ -114,10 +86,10 @@ Result<std::vector<Row>> equalTime(const Settings& settings) {
                 SHOAL_TRY_ASSIGN(Patch patch, patchOf(pair));
                 exact = std::move(patch.exact);
                 SHOAL_TRY_ASSIGN(const Image own, pair.draw(Method::shoal, "caustics"));
-                oursRmse = errorOf(channelOf(own), exact, false).rmse;
+                oursRmse = errorOf(own, exact).rmse;
             }
             SHOAL_TRY_ASSIGN(const Image theirs, pair.draw(Method::paper, "caustics"));
-            const double rmse = errorOf(channelOf(theirs), exact, true).rmse;
+            const double rmse = errorOf(theirs, exact, true).rmse;
             SHOAL_TRY_ASSIGN(const MethodPair::Both both, pair.inTurns(std::max(settings.repetitions / 2, 3)));
             const double paperMs = causticMs(both.paper);
             ours = causticMs(both.shoal);
@@ -183,12 +155,11 @@ Result<Row> webRow(MethodPair& pair, const Patch& patch, const WebFormula& formu
     whole.render(waves);
     // Theirs begins at 0, the check scene's picture at -2 of the same period.
     const std::vector<double> bins = whole.bins(kSide);
-    std::vector<double> moved(bins.size());
+    Image moved(kSide, kSide, 1);
     for (int z = 0; z < kSide; ++z)
         for (int x = 0; x < kSide; ++x)
-            moved[std::size_t(((z + kSide / 2) % kSide) * kSide + (x + kSide / 2) % kSide)] =
-                bins[std::size_t(z * kSide + x)];
-    const Error2d error = errorOf(moved, patch.exact, true);
+            *moved.at((x + kSide / 2) % kSide, (z + kSide / 2) % kSide) = float(bins[std::size_t(z * kSide + x)]);
+    const PictureError error = errorOf(moved, patch.exact, true);
     char text[240];
     std::snprintf(text, sizeof text,
                   "mean irradiance over the light's where 0.980 is right; %d^2 mesh, %d^2 map; with the mean matched "

@@ -1,5 +1,6 @@
 #include "bench/water_stage.h"
 
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -28,7 +29,8 @@ Result<WaterStage> WaterStage::create(const Settings& settings) {
     return stage;
 }
 
-Result<void> WaterStage::load(const std::string& scene, const Overrides& overrides) {
+Result<void> WaterStage::load(const std::string& scene, const Overrides& overrides,
+                              const std::function<void(scene::Content&)>& change) {
     SHOAL_TRY_ASSIGN(const std::string folder, checksFolder());
     std::vector<scene::Override> parsed;
     for (const std::string& one : overrides) {
@@ -37,6 +39,7 @@ Result<void> WaterStage::load(const std::string& scene, const Overrides& overrid
     }
     SHOAL_TRY_ASSIGN(const scene::Scene read, scene::loadScene(folder + "/" + scene + ".toml", parsed));
     SHOAL_TRY_ASSIGN(scene::Content content, scene::loadContent(read));
+    if (change) change(content);
     request_ = pipeline::requestFor(read.render);
     return pipeline_->setScene(read, std::move(content));
 }
@@ -68,6 +71,27 @@ std::string words(double x, double y, double z) {
     char text[96];
     std::snprintf(text, sizeof text, "[%.9g, %.9g, %.9g]", x, y, z);
     return text;
+}
+
+PictureError errorOf(const Image& picture, const Image& exact, bool matched) {
+    double mean = 0, exactMean = 0;
+    const double count = double(exact.width) * double(exact.height);
+    for (int y = 0; y < exact.height; ++y)
+        for (int x = 0; x < exact.width; ++x)
+            mean += double(*picture.at(x, y)) / count, exactMean += double(*exact.at(x, y)) / count;
+    const double scale = matched ? exactMean / mean : 1;
+    double squares = 0, absolute = 0;
+    for (int y = 0; y < exact.height; ++y)
+        for (int x = 0; x < exact.width; ++x) {
+            const double d = double(*picture.at(x, y)) * scale - double(*exact.at(x, y));
+            squares += d * d / count, absolute += std::abs(d) / count;
+        }
+    return {mean, std::sqrt(squares) / exactMean, absolute / exactMean};
+}
+
+Image exactPatch(const water::WaveField& waves, double discHalfAngle) {
+    const water::FloorBins bins{{-2, -2}, {2, 2}, 512, 512, true};
+    return water::traceFloor(waves, water::kWaterIndex, 0, {0, 1, 0}, discHalfAngle, 2, bins, 12288, 1).irradiance;
 }
 
 double columnMean(const Image& image, int first, int end) {

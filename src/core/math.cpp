@@ -2,6 +2,7 @@
 // and what divides by small numbers in double.
 #include <shoal/core/assert.h>
 #include <shoal/core/math.h>
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -69,6 +70,26 @@ Quat eulerXyz(Vec3 angles) {
     return axisAngle({0, 0, 1}, angles.z) * axisAngle({0, 1, 0}, angles.y) * axisAngle({1, 0, 0}, angles.x);
 }
 
+// [Shepperd 1978]: the largest of the four components first, the others from it.
+Quat quatOfAxes(const double (&axes)[3][3]) {
+    const double trace = axes[0][0] + axes[1][1] + axes[2][2];
+    const double terms[4] = {axes[0][0], axes[1][1], axes[2][2], trace};
+    const int i = int(std::max_element(terms, terms + 4) - terms);
+    double q[4];
+    if (i == 3) {
+        q[0] = axes[1][2] - axes[2][1], q[1] = axes[2][0] - axes[0][2], q[2] = axes[0][1] - axes[1][0];
+        q[3] = 1 + trace;
+    } else {
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+        q[i] = 1 + axes[i][i] - axes[j][j] - axes[k][k];
+        q[j] = axes[i][j] + axes[j][i], q[k] = axes[i][k] + axes[k][i];
+        q[3] = axes[j][k] - axes[k][j];
+    }
+    const double l = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+    if (!(l > 0)) return {};
+    return {float(q[0] / l), float(q[1] / l), float(q[2] / l), float(q[3] / l)};
+}
+
 Mat4 operator*(const Mat4& a, const Mat4& b) {
     Mat4 product;
     for (int c = 0; c < 4; ++c)
@@ -90,6 +111,12 @@ Vec3 transformPoint(const Mat4& a, Vec3 p) {
 Vec3 transformDirection(const Mat4& a, Vec3 d) { return column(a, 0) * d.x + column(a, 1) * d.y + column(a, 2) * d.z; }
 
 Mat4 translation(Vec3 t) { return compose(t, {}, {1, 1, 1}); }
+Quat quatOf(const Mat4& a) {
+    double axes[3][3];
+    for (int c = 0; c < 3; ++c)
+        for (int r = 0; r < 3; ++r) axes[c][r] = double(a(r, c));
+    return quatOfAxes(axes);
+}
 Mat4 scaling(Vec3 s) { return compose({}, {}, s); }
 Mat4 rotation(Quat q) { return compose({}, q, {1, 1, 1}); }
 

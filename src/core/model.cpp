@@ -3,6 +3,12 @@
 
 namespace shoal {
 
+bool matchesAny(std::span<const std::string> patterns, std::string_view name) {
+    return std::any_of(patterns.begin(), patterns.end(), [&](std::string_view pattern) {
+        return pattern.ends_with('*') ? name.starts_with(pattern.substr(0, pattern.size() - 1)) : name == pattern;
+    });
+}
+
 ModelCounts count(const Model& model) {
     ModelCounts counts;
     std::vector<std::size_t> meshTriangles;

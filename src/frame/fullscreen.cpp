@@ -32,6 +32,13 @@ void Fullscreen::draw(const gl::Program& program, Where where, bool blend) const
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
+std::vector<std::pair<std::string, std::string>> definesOf(int variant, std::span<const char* const> names) {
+    std::vector<std::pair<std::string, std::string>> defines;
+    for (std::size_t bit = 0; bit < names.size(); ++bit)
+        if (variant >> bit & 1) defines.emplace_back(names[bit], "1");
+    return defines;
+}
+
 Result<const gl::Program*> fullscreenProgram(gl::Device& device, const std::string& fragment,
                                              std::vector<std::pair<std::string, std::string>> defines) {
     gl::ProgramDesc desc{{"frame/fullscreen.vert", fragment}, std::move(defines), fragment};

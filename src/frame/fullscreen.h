@@ -1,6 +1,7 @@
 // Passes over every pixel of a target: one triangle at depth 0 (shaders/fullscreen.vert).
 #pragma once
 
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -24,6 +25,8 @@ private:
     gl::VertexArray nothing_;
 };
 
+// What a program variant is compiled with: names[i] where bit i of `variant` is set.
+std::vector<std::pair<std::string, std::string>> definesOf(int variant, std::span<const char* const> names);
 // The program of fullscreen.vert and a fragment shader "frame/x.frag".
 Result<const gl::Program*> fullscreenProgram(gl::Device& device, const std::string& fragment,
                                              std::vector<std::pair<std::string, std::string>> defines = {});

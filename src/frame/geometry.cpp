@@ -61,18 +61,6 @@ Result<void> buildPrograms(State& s) {
     return {};
 }
 
-bool matches(const std::string& pattern, const std::string& name) {
-    if (!pattern.empty() && pattern.back() == '*')
-        return name.compare(0, pattern.size() - 1, pattern, 0, pattern.size() - 1) == 0;
-    return pattern == name;
-}
-
-bool isHidden(const InstanceDesc& desc, const std::string& node) {
-    for (const std::string& pattern : desc.hiddenNodes)
-        if (matches(pattern, node)) return true;
-    return false;
-}
-
 bool finite(const Mat4& m) {
     for (const float x : m.m)
         if (!std::isfinite(x)) return false;
@@ -90,7 +78,7 @@ void State::addDraws(int index) {
     instance.firstJob = std::uint32_t(jobs.size());
     for (std::size_t n = 0; n < model.skeleton.nodes.size(); ++n) {
         const Node& node = model.skeleton.nodes[n];
-        if (node.mesh < 0 || isHidden(instance.desc, node.name)) continue;
+        if (node.mesh < 0 || matchesAny(instance.desc.hiddenNodes, node.name)) continue;
         for (const GpuPrimitive& p : model.meshes[std::size_t(node.mesh)]) {
             if (p.indexCount == 0) continue;
             Draw draw;

@@ -24,15 +24,9 @@ enum Variant { kNoSun = 1, kNoLocalLights = 2, kSunOverride = 4, kTerms = 8, kEn
 constexpr int kShadeVariants = 32;
 
 Result<const gl::Program*> shadeProgram(gl::Device& device, int variant) {
-    const std::pair<Variant, const char*> names[] = {{kNoSun, "NO_SUN"},
-                                                     {kNoLocalLights, "NO_LOCAL_LIGHTS"},
-                                                     {kSunOverride, "SUN_OVERRIDE"},
-                                                     {kTerms, "TERMS"},
-                                                     {kEnvironmentOverride, "ENVIRONMENT_OVERRIDE"}};
-    std::vector<std::pair<std::string, std::string>> defines;
-    for (const auto& [bit, name] : names)
-        if (variant & bit) defines.emplace_back(name, "1");
-    return fullscreenProgram(device, "frame/shade.frag", defines);
+    static constexpr const char* kNames[] = {"NO_SUN", "NO_LOCAL_LIGHTS", "SUN_OVERRIDE", "TERMS",
+                                             "ENVIRONMENT_OVERRIDE"};
+    return fullscreenProgram(device, "frame/shade.frag", definesOf(variant, kNames));
 }
 
 }  // namespace

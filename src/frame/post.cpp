@@ -37,15 +37,8 @@ int variantOf(const PostParams& params) {
 }
 
 Result<const gl::Program*> presentProgram(gl::Device& device, int variant) {
-    const std::pair<Variant, const char*> names[] = {{kAccumulated, "ACCUMULATED"},
-                                                     {kBloom, "BLOOM"},
-                                                     {kLook, "LOOK"},
-                                                     {kAgx, "CURVE_AGX"},
-                                                     {kPlain, "CURVE_PLAIN"}};
-    std::vector<std::pair<std::string, std::string>> defines;
-    for (const auto& [bit, name] : names)
-        if (variant & bit) defines.emplace_back(name, "1");
-    return fullscreenProgram(device, "frame/present.frag", defines);
+    static constexpr const char* kNames[] = {"ACCUMULATED", "BLOOM", "LOOK", "CURVE_AGX", "CURVE_PLAIN"};
+    return fullscreenProgram(device, "frame/present.frag", definesOf(variant, kNames));
 }
 
 void bindInput(int unit, const gl::TextureView& texture) {

@@ -96,19 +96,7 @@ void decompose(const JsonValue& json, const std::array<float, 16>& m, Node& node
     node.translation = {m[12], m[13], m[14]};
     node.scale = {float(scale[0]), float(scale[1]), float(scale[2])};
     if (flat > 1) return;  // no rotation can be told
-    // Shepperd's method: the largest of the four components first.
-    const double xx = axis[0][0], yy = axis[1][1], zz = axis[2][2];
-    double q[4];
-    if (xx + yy + zz > 0) {
-        q[3] = xx + yy + zz + 1;
-        q[0] = axis[1][2] - axis[2][1], q[1] = axis[2][0] - axis[0][2], q[2] = axis[0][1] - axis[1][0];
-    } else {
-        const int i = xx >= yy && xx >= zz ? 0 : yy >= zz ? 1 : 2, j = (i + 1) % 3, k = (i + 2) % 3;
-        q[i] = 1 + axis[i][i] - axis[j][j] - axis[k][k];
-        q[j] = axis[i][j] + axis[j][i], q[k] = axis[i][k] + axis[k][i], q[3] = axis[j][k] - axis[k][j];
-    }
-    const double l = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-    if (l > 0) node.rotation = {float(q[0] / l), float(q[1] / l), float(q[2] / l), float(q[3] / l)};
+    node.rotation = quatOfAxes(axis);
 }
 
 void readTransform(const JsonValue& json, Node& node) {

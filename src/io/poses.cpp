@@ -75,31 +75,14 @@ std::string readHeader(std::string_view line, Table& table) {
 }
 
 // worldFromCamera of a camera that looks along `forward` (not zero) with +y up; -z is up for a look straight down, +z
-// for one straight up. From the rotation matrix with the columns right, up, back [Shepperd 1978], in double.
+// for one straight up.
 Quat lookAlong(Vec3 forward) {
     const Vec3 back = normalize(-forward);
     Vec3 right = cross({0, 1, 0}, back);
     if (length(right) < 1e-4f) right = cross({0, 0, back.y > 0 ? -1.0f : 1.0f}, back);
     right = normalize(right);
     const Vec3 up = cross(back, right);
-    const double trace = double(right.x) + up.y + back.z;
-    const double terms[4] = {trace, right.x, up.y, back.z};
-    int largest = 0;
-    for (int i = 1; i < 4; ++i)
-        if (terms[i] > terms[largest]) largest = i;
-    const double s = std::sqrt(std::max(0.0, 1 + 2 * terms[largest] - trace)) * 2;
-    const double a = up.z - back.y, b = back.x - right.z, c = right.y - up.x;  // differences across the diagonal
-    const double xy = double(right.y) + up.x, xz = double(right.z) + back.x, yz = double(up.z) + back.y;
-    switch (largest) {
-        case 0:
-            return normalize(Quat{float(a / s), float(b / s), float(c / s), float(s / 4)});
-        case 1:
-            return normalize(Quat{float(s / 4), float(xy / s), float(xz / s), float(a / s)});
-        case 2:
-            return normalize(Quat{float(xy / s), float(s / 4), float(yz / s), float(b / s)});
-        default:
-            return normalize(Quat{float(xz / s), float(yz / s), float(s / 4), float(c / s)});
-    }
+    return quatOfAxes({{right.x, right.y, right.z}, {up.x, up.y, up.z}, {back.x, back.y, back.z}});
 }
 
 // Empty, or what is wrong with the row.

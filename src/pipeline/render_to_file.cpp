@@ -1,5 +1,4 @@
 // Frames to files: stills, numbered frames, films, AOVs and camera poses.
-#include <algorithm>
 #include <optional>
 
 #include <shoal/io/file.h>
@@ -11,25 +10,6 @@
 namespace shoal::pipeline {
 
 namespace {
-
-// Rotation part of a rigid matrix as a quaternion [Shepperd 1978].
-Quat quatOf(const Mat4& m) {
-    const float trace = m(0, 0) + m(1, 1) + m(2, 2);
-    const float candidates[4] = {m(0, 0), m(1, 1), m(2, 2), trace};
-    const int largest = int(std::max_element(candidates, candidates + 4) - candidates);
-    Quat q;
-    if (largest == 3) {
-        q = {m(2, 1) - m(1, 2), m(0, 2) - m(2, 0), m(1, 0) - m(0, 1), 1 + trace};
-    } else {
-        const int i = largest, j = (i + 1) % 3, k = (i + 2) % 3;
-        float v[3];
-        v[i] = 1 + m(i, i) - m(j, j) - m(k, k);
-        v[j] = m(j, i) + m(i, j);
-        v[k] = m(k, i) + m(i, k);
-        q = {v[0], v[1], v[2], m(k, j) - m(j, k)};
-    }
-    return normalize(q);
-}
 
 Result<void> checkOutput(const std::string& output, const OutputOptions& options) {
     const std::string extension = io::lowerExtension(output);

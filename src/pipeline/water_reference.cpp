@@ -6,15 +6,6 @@ namespace shoal::pipeline {
 
 namespace {
 
-bool isHidden(const scene::Instance& instance, const std::string& node) {
-    for (const std::string& pattern : instance.hide) {
-        const bool open = !pattern.empty() && pattern.back() == '*';
-        if (open ? node.compare(0, pattern.size() - 1, pattern, 0, pattern.size() - 1) == 0 : node == pattern)
-            return true;
-    }
-    return false;
-}
-
 // What is opaque: the first surface that a picture's AOVs tell of. Cut-outs of masked materials are not cut out.
 bool isOpaque(const Model& model, const Primitive& primitive) {
     if (primitive.material < 0) return true;
@@ -29,7 +20,7 @@ void addTriangles(const scene::Instance& instance, const Model& model, float tim
     const Mat4 worldFromModel = scene::transformAt(instance, time);
     for (std::size_t n = 0; n < model.nodes.size(); ++n) {
         const Node& node = model.nodes[n];
-        if (node.mesh < 0 || isHidden(instance, node.name)) continue;
+        if (node.mesh < 0 || matchesAny(instance.hide, node.name)) continue;
         for (const Primitive& primitive : model.meshes[std::size_t(node.mesh)].primitives) {
             if (!isOpaque(model, primitive)) continue;
             std::vector<Vec3> positions = posedPositions(model, pose, int(n), primitive);

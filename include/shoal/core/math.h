@@ -100,6 +100,8 @@ Quat slerp(Quat a, Quat b, float t);
 Quat axisAngle(Vec3 axis, float angle);
 // Rotations about x, then y, then z, in radians (applied z * y * x).
 Quat eulerXyz(Vec3 angles);
+// The rotation that takes x, y and z to axes[0], axes[1] and axes[2]: unit, perpendicular, right-handed.
+Quat quatOfAxes(const double (&axes)[3][3]);
 
 Mat4 operator*(const Mat4& a, const Mat4& b);
 Vec4 operator*(const Mat4& a, Vec4 v);
@@ -109,6 +111,7 @@ Mat4 translation(Vec3 t);
 Mat4 scaling(Vec3 s);
 Mat4 rotation(Quat q);
 Mat4 compose(Vec3 translation, Quat rotation, Vec3 scale);  // T * R * S
+Quat quatOf(const Mat4& a);                                 // of the linear part, a rotation
 // The inverse, computed in double precision; nothing for a singular matrix (|det| below 1e-30).
 std::optional<Mat4> inverse(const Mat4& a);
 Mat4 transpose(const Mat4& a);

@@ -4,7 +4,9 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <shoal/core/image.h>
@@ -129,6 +131,9 @@ struct Model {
     std::vector<ModelCamera> cameras;
     std::vector<ModelLight> lights;
 };
+
+// Whether a node's name is one of `patterns`: whole names, or beginnings that end in `*`.
+bool matchesAny(std::span<const std::string> patterns, std::string_view name);
 
 // What `shoal info` tells of a model.
 struct ModelCounts {

@@ -61,6 +61,21 @@ TEST(Quat, EulerAnglesTurnAboutXThenYThenZ) {
     expectNear(rotate(eulerXyz(angles), v), rotate(axisAngle({0, 0, 1}, angles.z), byXy), 2e-6f);
 }
 
+TEST(Quat, OfAMatrixTurnsAsTheMatrixDoes) {
+    for (std::uint32_t i = 0; i < 200; ++i) {
+        const Quat q = someRotation(7 * i), back = quatOf(rotation(q));
+        EXPECT_NEAR(std::abs(q.x * back.x + q.y * back.y + q.z * back.z + q.w * back.w), 1, 1e-6);
+        expectNear(rotate(back, {1, -2, 0.5f}), rotate(q, {1, -2, 0.5f}), 4e-6f);
+    }
+    // Half turns, where w is 0: each of the other three components is the largest once.
+    for (const Vec3 axis : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}, normalize(Vec3{1, 2, -3})}) {
+        const Quat half{axis.x, axis.y, axis.z, 0};
+        expectNear(rotate(quatOf(rotation(half)), {3, 1, -2}), rotate(half, {3, 1, -2}), 4e-6f);
+    }
+    EXPECT_EQ(quatOf(Mat4{}), Quat{});
+    EXPECT_EQ(quatOfAxes({{0, 1, 0}, {-1, 0, 0}, {0, 0, 1}}), axisAngle({0, 0, 1}, kPi / 2));
+}
+
 TEST(Quat, NormalizeOfZeroOrNanIsTheIdentity) {
     EXPECT_EQ(normalize(Quat{0, 0, 0, 0}), Quat{});
     EXPECT_EQ(normalize(Quat{kNan, 0, 0, 1}), Quat{});
