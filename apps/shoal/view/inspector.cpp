@@ -66,6 +66,7 @@ ByteImage colorsOf(const std::string& aov, const Image& image, std::string& rang
     const bool isFraction = count == 1 && !isId && unit.empty();
     const auto [low, high] = spanOf(image, count == 1 && !isFraction);
     const float most = std::max(std::abs(low), std::abs(high));
+    const bool isLog = aov == "depth" && low > 0 && high > 8 * low;  // near things differ too
     const float exposure = isColor && !unit.empty() && high > 0 ? 1 / high : 1;
     char text[120];
     if (isColor)
@@ -77,8 +78,8 @@ ByteImage colorsOf(const std::string& aov, const Image& image, std::string& rang
     else if (isMotion)
         std::snprintf(text, sizeof text, "grey 0, full colour %.3g %s", double(most), unit.c_str());
     else
-        std::snprintf(text, sizeof text, "%.4g .. %.4g %s", isFraction ? 0.0 : double(low),
-                      isFraction ? 1.0 : double(high), unit.c_str());
+        std::snprintf(text, sizeof text, "%.4g .. %.4g %s%s", isFraction ? 0.0 : double(low),
+                      isFraction ? 1.0 : double(high), unit.c_str(), isLog ? ", logarithmic" : "");
     range = text;
     for (int y = 0; y < image.height; ++y) {
         for (int x = 0; x < image.width; ++x) {
@@ -96,7 +97,8 @@ ByteImage colorsOf(const std::string& aov, const Image& image, std::string& rang
             else if (isFraction)
                 c = {v[0], v[0], v[0]};
             else if (v[0] != 0)
-                c = viridis((v[0] - low) / std::max(high - low, 1e-12f));
+                c = viridis(isLog ? std::log(v[0] / low) / std::log(high / low)
+                                  : (v[0] - low) / std::max(high - low, 1e-12f));
             std::uint8_t* to = colors.pixels.data() + (std::size_t(y) * std::size_t(image.width) + std::size_t(x)) * 4;
             to[0] = toByte(c.x), to[1] = toByte(c.y), to[2] = toByte(c.z), to[3] = 255;
         }

@@ -60,12 +60,17 @@ void drawReadings(Viewer& v) {
     const float x = float(v.cursorX - a.x) / float(a.width), y = float(v.cursorY - a.y) / float(a.height);
     const auto readings = v.inspector.at(x, y, v.picture.content());
     if (readings.empty()) return;
-    const float em = ImGui::GetFontSize();
-    const bool right = float(v.cursorX) + 27 * em > float(a.x + a.width), low = y > 0.5f;  // inside the picture
-    ImGui::SetNextWindowPos({float(v.cursorX) + (right ? -em : em), float(v.cursorY) + (low ? -em : em)},
-                            ImGuiCond_Always, {right ? 1.0f : 0.0f, low ? 1.0f : 0.0f});
     ImGui::SetNextWindowBgAlpha(0.9f);
     ImGui::Begin("readings", nullptr, kOverlay | ImGuiWindowFlags_NoInputs);
+    // Beside the cursor where that is free, never over the panels: the size is the last frame's.
+    const float gap = ImGui::GetFontSize();
+    const ImVec2 size = ImGui::GetWindowSize();
+    const auto beside = [gap](float cursor, float extent, float low, float high) {
+        const float after = cursor + gap, before = cursor - gap - extent;
+        return std::max(low, after + extent <= high ? after : std::max(before, low));
+    };
+    ImGui::SetWindowPos({beside(float(v.cursorX), size.x, float(a.x), float(a.x + a.width)),
+                         beside(float(v.cursorY), size.y, float(a.y), float(a.y + a.height))});
     ImGui::TextDisabled("pixel %d, %d", int(v.cursorX) - a.x, int(v.cursorY) - a.y);
     if (ImGui::BeginTable("values", 3, ImGuiTableFlags_SizingFixedFit)) {
         const MonoScope mono;
