@@ -10,9 +10,7 @@
 
 #include <osg/ClipControl>
 #include <osg/Depth>
-#include <osg/Geometry>
 #include <osg/MatrixTransform>
-#include <osg/ShapeDrawable>
 #include <osg/Texture2D>
 #include <osgDB/WriteFile>
 #include <osgUtil/SceneView>
@@ -21,41 +19,11 @@
 #include <shoal/water/water.h>
 
 #include "water_host_shaders.h"
+#include "water_osg_scene.h"
 
 namespace {
 
 using namespace shoal;
-constexpr int kWidth = 960, kHeight = 540;
-
-osg::ref_ptr<osg::Program> program(const char* vertex, const char* fragment) {
-    osg::ref_ptr<osg::Program> p = new osg::Program;
-    p->addShader(new osg::Shader(osg::Shader::VERTEX, vertex));
-    p->addShader(new osg::Shader(osg::Shader::FRAGMENT, fragment));
-    return p;
-}
-
-osg::ref_ptr<osg::Group> makeScene() {
-    osg::ref_ptr<osg::Group> scene = new osg::Group;
-    const auto add = [&](osg::Shape* shape, osg::Vec4 color) {
-        osg::ref_ptr<osg::ShapeDrawable> drawable = new osg::ShapeDrawable(shape);
-        drawable->setColor(color);
-        scene->addChild(drawable);
-    };
-    add(new osg::Box({0, -5.1f, 0}, 80, 0.2f, 80), {0.6f, 0.55f, 0.42f, 1});
-    add(new osg::Sphere({0, -4, -2}, 1), {0.5f, 0.12f, 0.1f, 1});
-    add(new osg::Box({2.6f, -3.4f, -3}, 0.8f, 3.2f, 0.8f), {0.45f, 0.45f, 0.42f, 1});
-    add(new osg::Box({-2.6f, -3.4f, -4}, 0.8f, 3.2f, 0.8f), {0.45f, 0.45f, 0.42f, 1});
-    return scene;
-}
-
-osg::ref_ptr<osg::Texture2D> makeTexture(GLint format, GLenum source = GL_RGBA) {
-    osg::ref_ptr<osg::Texture2D> t = new osg::Texture2D;
-    t->setTextureSize(kWidth, kHeight), t->setInternalFormat(format);
-    t->setSourceFormat(source), t->setSourceType(GL_FLOAT);
-    t->setFilter(osg::Texture::MIN_FILTER, osg::Texture::NEAREST);
-    t->setFilter(osg::Texture::MAG_FILTER, osg::Texture::NEAREST);
-    return t;
-}
 
 struct Textures {
     osg::ref_ptr<osg::Texture2D> albedo = makeTexture(GL_RGBA8), normal = makeTexture(GL_RG16),
