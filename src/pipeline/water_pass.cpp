@@ -143,6 +143,7 @@ void WaterPass::draw(const frame::Context& context, const WaterScene& scene, con
     const frame::GBuffer& g = targets.gbuffer();
     const bool scatters = paper_ || water_.scatters(params_);
     scene.shadows.bind();  // of spots in the water
+    water_.surface().useMirrors(mirrors_);
     water_.scatter(context, params_, lights, g.viewDepth, g.depth, paper_ ? gl::TextureView() : inscatter_.view());
     {
         const gl::PassScope pass(context.timer, "copy opaque");

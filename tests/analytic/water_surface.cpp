@@ -144,6 +144,7 @@ TEST_F(WaterSurface, AbsorptionAlongTheBentPath) {
 TEST_F(WaterSurface, FloorAppearsWhereSnellPutsIt) {
     auto stage = test::WaterStage::create(device(), 0);
     ASSERT_TRUE(stage) << stage.error().message;
+    (*stage)->params.reflections = false;  // the picture alone is searched
     add(**stage, levelSheet(-2, {1, 1, 1}));
     const int width = 320, height = 180;
     const Vec3 eye{1, 2, 3};
@@ -177,6 +178,49 @@ TEST_F(WaterSurface, FloorAppearsWhereSnellPutsIt) {
     EXPECT_GT(outside, 20);  // mirrored at the border
     EXPECT_LT(worst, 1.0);
     RecordProperty("worst_px", std::to_string(worst));
+}
+
+// The same through the view along bent rays: it has the patch under the picture's lower border too.
+TEST_F(WaterSurface, FloorBeyondThePictureIsSeen) {
+    auto stage = test::WaterStage::create(device(), 0);
+    ASSERT_TRUE(stage) << stage.error().message;
+    add(**stage, levelSheet(-2, {1, 1, 1}));
+    Material dark;
+    dark.unlit = true;
+    dark.baseColor = {0.25f, 0.25f, 0.25f, 1};
+    const Vec2 lo{0, -2.5f}, hi{2, 1.1f};  // of the patch: x and z
+    add(**stage, test::modelOf({test::quad({lo.x, -1.999f, hi.y}, {hi.x - lo.x, 0, 0}, {0, 0, lo.y - hi.y})}, {dark}));
+    const int width = 320, height = 180;
+    const Vec3 eye{1, 2, 3};
+    const light::View view =
+        light::makeView(light::cameraLookingAt(eye, {1.5f, -1.5f, -3}, radians(50)), width, height);
+    const auto picture = (*stage)->draw(view);
+    ASSERT_TRUE(picture) << picture.error().message;
+    int on = 0, off = 0, beyond = 0;
+    for (int y = 0; y < height; y += 3)
+        for (int x = 0; x < width; x += 3) {
+            const Vec3 clip{2 * (float(x) + 0.5f) / float(width) - 1, 1 - 2 * (float(y) + 0.5f) / float(height), 1};
+            const Vec3 d = normalize(transformDirection(view.worldFromView, transformPoint(view.viewFromClip, clip)));
+            if (d.y > -0.1f) continue;
+            const Vec3 start = eye + d * (-eye.y / d.y);
+            const Vec3 bent{d.x / float(kIndex), -std::sqrt(1 - (1 - d.y * d.y) / float(kIndex * kIndex)),
+                            d.z / float(kIndex)};
+            const Vec3 hit = start + bent * (-2 / bent.y);
+            const float inwards = std::min({hit.x - lo.x, hi.x - hit.x, hit.z - lo.y, hi.y - hit.z});
+            if (std::abs(inwards) < 0.02f * length(hit - eye)) continue;  // its rim
+            const bool inside = inwards > 0;
+            const double expected =
+                fresnelTransmittance(double(-d.y), kIndex) / (kIndex * kIndex) * (inside ? 0.25 : 1.0);
+            EXPECT_NEAR(double(picture->radiance.at(x, y)[0]) / expected, 1, 0.02) << x << " " << y;
+            EXPECT_EQ(picture->path.at(x, y)[3], -2) << x << " " << y;
+            EXPECT_NEAR(double(picture->path.at(x, y)[2]) * double(-bent.y), 2, 0.006) << x << " " << y;
+            (inside ? on : off) += 1;
+            const Vec3 seen = transformPoint(view.clipFromWorld(), hit);
+            beyond += inside && seen.y < -1 ? 1 : 0;
+        }
+    EXPECT_GT(on, 300);
+    EXPECT_GT(off, 2000);
+    EXPECT_GT(beyond, 10);
 }
 
 // A lamp-like patch above level water is mirrored where the law of reflection puts it, as bright as Fresnel says.

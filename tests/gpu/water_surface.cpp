@@ -273,6 +273,7 @@ TEST_F(WaterSurfaceGpu, BlockLayout) {
         {"SurfaceBlock.clipFromWorld[0]", offsetof(SurfaceBlock, clipFromWorld)},
         {"SurfaceBlock.depthRow[0]", offsetof(SurfaceBlock, depthRow)},
         {"SurfaceBlock.mirrorSize[0]", offsetof(SurfaceBlock, mirrorSize)},
+        {"SurfaceBlock.bentEye", offsetof(SurfaceBlock, bentEye)},
         {"SurfaceBlock.grid", offsetof(SurfaceBlock, grid)},
         {"SurfaceBlock.look", offsetof(SurfaceBlock, look)}};
     for (const auto& [name, offset] : members) {

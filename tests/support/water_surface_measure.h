@@ -79,6 +79,7 @@ public:
         SHOAL_TRY(drawOpaque(context, targets_));
         surface->setTermsWanted(terms);
         lighting_->bind();
+        surface->useMirrors(mirrors);
         surface->trace(context, params, body, targets_->gbuffer().viewDepth, targets_->gbuffer().depth);
         targets_->copyOpaque();
         targets_->forward().bind();
@@ -130,7 +131,7 @@ private:
     std::optional<frame::Lighting> lighting_;
     std::optional<frame::Shadows> shadows_;
     std::optional<water::GpuWaves> gpuWaves_;
-    std::optional<frame::Targets> targets_, mirrors_[2];
+    std::optional<frame::Targets> targets_, mirrors_[3];
     std::uint32_t frameIndex_ = 0;
 };
 

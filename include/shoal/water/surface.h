@@ -24,7 +24,7 @@ template <class P, class V>
 requires std::is_same_v<std::remove_const_t<P>, SurfaceParams>
 void visit(P& p, V&& v) {
     v(p.reflections, Field{"reflections", "", -1e30, 1e30, "whether things are mirrored, not the sky alone"});
-    v(p.reflectionScale, Field{"reflectionScale", "", 0.1, 1, "size of the mirrored picture to the picture's"});
+    v(p.reflectionScale, Field{"reflectionScale", "", 0.1, 1, "size of the mirrored picture to the picture's; what lies in water has twice that"});
     v(p.roughness, Field{"roughness", "", 0, 0.5, "slope of ripples too small for the waves (rms)"});
     v(p.foam, Field{"foam", "", -1e30, 1e30, "a line of foam where the water is shallow"});
     v(p.foamDepth, Field{"foamDepth", "m", 0.01, 10, "depth of water where foam begins"});
@@ -39,7 +39,8 @@ struct WaterPaths {
     gl::TextureView surfaceNormal;  // RG16 octahedral, world, upwards
     // RGBA16F: xy from the pixel to the place in the picture (of its size) where the opaque surface at the end of the
     // path is seen (not 0 where the ray is bent), z: metres in water, w: 1 where the path begins at the eye, down to -1
-    // where a bent ray ends beyond the picture's border or behind something: xy and z are guesses there.
+    // where a bent ray ends beyond the picture's border or behind something: xy and z are guesses there. w: -2 where the
+    // view along bent rays shows what is met, and the picture was not searched: xy is 0.
     gl::TextureView path;
 };
 
@@ -64,7 +65,7 @@ public:
     ~Surface();
 
     // Chooses the views that reflection and the window upwards need: colour views, to be shaded like the picture and
-    // clipped to clipPlane's positive side. At most 2.
+    // clipped to clipPlane's positive side. At most 3.
     struct MirrorView {
         light::View view;
         Vec4 clipPlane;           // world: dot(clipPlane, (p, 1)) >= 0 is drawn
@@ -73,6 +74,9 @@ public:
     void prepare(const frame::Context& context, const SurfaceParams& params, const Body& body,
                  const Bounds& sceneBounds);
     std::span<const MirrorView> neededViews() const;
+    // What was drawn of them (same order), before trace(): bent rays are followed in it. Without it, and where it is
+    // empty, on the screen alone.
+    void useMirrors(std::span<const SurfaceInputs::Mirror> mirrors);
 
     // Draws the surface of this sample and finds every pixel's path. viewDepth: of the opaque surfaces; depth: D32F of
     // the same, reversed z, only read. Lighting::prepare() of this context and Lighting::bind() must have been called

@@ -18,9 +18,12 @@ using mat4 = Mat4;
 #endif
 
 SHOAL_SURFACE_BLOCK_BEGIN {
-    mat4 clipFromWorld[2];  // of the mirrored views: 0 shows what is above the water, 1 what is under it
-    vec4 depthRow[2];       // dot with (p, 1): view depth of world point p there
-    vec4 mirrorSize[2];     // x, y: pixels; z: 1 where there is such a view
+    // Of the views: 0 shows what is above the water, mirrored or through the window, 1 what is under it, mirrored, 2
+    // the same along bent rays.
+    mat4 clipFromWorld[3];
+    vec4 depthRow[3];    // dot with (p, 1): view depth of world point p there
+    vec4 mirrorSize[3];  // x, y: pixels; z: 1 where there is such a view
+    vec4 bentEye;        // xyz: eye of view 2, world
     vec4 grid;              // x: cell of the finest level m, y, z: x and z of the middle, w: 1 where inscatter is given
     vec4 look;              // x: variance of slope of what no wave shows, y: 1 for foam, z: depth where foam begins m
 }

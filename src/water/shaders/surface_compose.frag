@@ -13,13 +13,15 @@
 #include "water/surface_foam.glsl"
 #endif
 
-layout(binding = SHOAL_UNIT_PASS + 0) uniform sampler2D radianceTexture;
-layout(binding = SHOAL_UNIT_PASS + 1) uniform sampler2D opaqueDepth;
+layout(binding = SHOAL_UNIT_OPAQUE_COPY) uniform sampler2D radianceTexture;
+layout(binding = SHOAL_UNIT_OPAQUE_DEPTH) uniform sampler2D opaqueDepth;
+layout(binding = SHOAL_UNIT_PASS + 0) uniform sampler2D bentRadiance;   // what is under the water along bent rays
+layout(binding = SHOAL_UNIT_PASS + 1) uniform sampler2D bentDepth;
 layout(binding = SHOAL_UNIT_PASS + 2) uniform sampler2D inscatterTexture;
 layout(binding = SHOAL_UNIT_PASS + 3) uniform sampler2D spreadTexture;
 layout(binding = SHOAL_UNIT_PASS + 4) uniform sampler2D airRadiance;    // what stands above the water
 layout(binding = SHOAL_UNIT_PASS + 5) uniform sampler2D airDepth;
-layout(binding = SHOAL_UNIT_PASS + 6) uniform sampler2D waterRadiance;  // what is under it
+layout(binding = SHOAL_UNIT_PASS + 6) uniform sampler2D waterRadiance;  // what is under it, mirrored
 layout(binding = SHOAL_UNIT_PASS + 7) uniform sampler2D waterDepth;
 
 layout(location = 0) out vec4 outRadiance;
@@ -27,8 +29,13 @@ layout(location = 0) out vec4 outRadiance;
 const float kTurn = 6.28318530718;
 const float kBrightest = 40000.0;     // of half floats' 65504
 const float kFirstLook = 20.0;        // metres along a mirrored ray
-const int kLooks = 4;
+const float kFirstLookUnder = 2.0;    // and along one in the water
+const int kLooks = 5;
 const float kBorder = 0.08;           // of the picture's size
+const float kEndless = 1e6;
+const float kNearer = 0.4;
+const float kLeastDown = 0.02;        // of a unit ray mirrored into the water
+const float kLeastAhead = 0.05;       // of a length: what lies beside or behind a view's eye is taken for so far ahead
 const float kLookTolerance = 0.5;     // of the length: how far off its ray a thing may be to be taken for it
 
 // Sharp to wide: spread is the standard deviation of direction, radians.
@@ -46,42 +53,64 @@ struct Mirrored {
     float lengthM;
 };
 
+// rgb: between the texels of a view about `place` (pixels) that show anything, a: their share.
+vec4 texelsAbout(int which, sampler2D radiances, sampler2D depths, vec2 place) {
+    ivec2 last = ivec2(surfaceBlock.mirrorSize[which].xy) - 1;
+    vec2 corner = floor(place - 0.5), f = place - 0.5 - corner;
+    vec4 sum = vec4(0.0);
+    for (int i = 0; i < 4; ++i) {
+        ivec2 texel = clamp(ivec2(corner) + ivec2(i & 1, i >> 1), ivec2(0), last);
+        float share = ((i & 1) != 0 ? f.x : 1.0 - f.x) * (i > 1 ? f.y : 1.0 - f.y);
+        sum += vec4(texelFetch(radiances, texel, 0).rgb, 1.0) * (texelFetch(depths, texel, 0).x > 0.0 ? share : 0.0);
+    }
+    return sum;
+}
+
+// border: of the view's size, over which it goes on beyond its border as there; then there is nothing (the sky alone).
+// tolerance: of the length, how far off its ray a thing may be to be taken for it.
+// nothing: of the length looked at, where to look next if nothing is seen.
 Mirrored lookUp(int which, sampler2D radiances, sampler2D depths, vec3 start, vec3 direction, float first,
-                bool ask) {
+                float border, float tolerance, float nothing, bool ask) {
     Mirrored m = Mirrored(vec4(0.0), kFarthestWater);
     mat4 clipFromWorld = surfaceBlock.clipFromWorld[which];
     vec2 pixels = surfaceBlock.mirrorSize[which].xy;
     vec4 clip0 = clipFromWorld * vec4(start, 1.0), clip1 = clipFromWorld * vec4(direction, 0.0);
     float depth0 = dot(surfaceBlock.depthRow[which], vec4(start, 1.0));
     float depth1 = dot(surfaceBlock.depthRow[which], vec4(direction, 0.0));
-    float t = first, met = first;
-    vec2 place = vec2(0.0), at = vec2(0.0);
+    float t = first, met = t, best = t, bestMiss = 1e30;
+    vec2 bestAt = vec2(0.0);
     // Where the ray is as deep as what is seen there; level water has it at the first look. What is nearer than the
-    // start is not on the ray.
+    // start stands where the surface ends.
     int looks = ask && surfaceBlock.mirrorSize[which].z > 0.0 ? kLooks : 0;
     for (int i = 0; i < looks; ++i) {
-        t = met;
+        t = min(met, kFarthestWater);
         vec4 clip = clip0 + clip1 * t;
-        at = clip.xy / max(clip.w, 1e-3) * 0.5 + 0.5;
-        place = clamp(at * pixels, vec2(0.5), pixels - 0.5);
-        float seen = texelFetch(depths, ivec2(place), 0).x - depth0;
-        met = seen > 0.0 ? clamp(seen / max(depth1, 1e-4), 0.0, kFarthestWater) : kFarthestWater;
-        if (abs(met - t) < 1e-3 * t) break;
+        vec2 at = clip.xy / max(clip.w, kLeastAhead * t) * 0.5 + 0.5;
+        vec2 place = clamp(at * pixels, vec2(0.5), pixels - 0.5);
+        float seen = texelFetch(depths, ivec2(place), 0).x;
+        met = seen > 0.0 ? clamp((seen - depth0) / max(depth1, 1e-4), 0.0, kFarthestWater) : nothing * t;
+        float miss = seen > 0.0 ? abs(met - t) / (t + 1.0) : 1e20;
+        best = miss < bestMiss ? t : best;
+        bestAt = miss < bestMiss ? at : bestAt;
+        bestMiss = min(miss, bestMiss);
+        if (miss < 1e-3) break;
     }
-    if (looks > 0 && abs(met - t) < kLookTolerance * t + 1.0) {
-        // Beyond its border the picture goes on as there for a little, then there is the sky alone.
-        vec2 beyond = max(abs(at - 0.5) - 0.5, vec2(0.0));
-        float known = clamp(1.0 - max(beyond.x, beyond.y) / kBorder, 0.0, 1.0);
-        vec2 corner = floor(place - 0.5), f = place - 0.5 - corner;
-        for (int i = 0; i < 4; ++i) {
-            ivec2 texel = clamp(ivec2(corner) + ivec2(i & 1, i >> 1), ivec2(0), ivec2(pixels) - 1);
-            float share = ((i & 1) != 0 ? f.x : 1.0 - f.x) * (i > 1 ? f.y : 1.0 - f.y);
-            float there = texelFetch(depths, texel, 0).x > max(depth0, 0.0) ? share * known : 0.0;
-            m.radiance += vec4(texelFetch(radiances, texel, 0).rgb, 1.0) * there;
-        }
-        m.lengthM = t;
+    if (looks > 0 && bestMiss < tolerance) {
+        vec2 beyond = max(abs(bestAt - 0.5) - 0.5, vec2(0.0));
+        float known = clamp(1.0 - max(beyond.x, beyond.y) / border, 0.0, 1.0);
+        vec2 place = clamp(bestAt * pixels, vec2(0.5), pixels - 0.5);
+        m.radiance = texelsAbout(which, radiances, depths, place) * known;
+        m.lengthM = best;
     }
     return m;
+}
+
+// What the view along bent rays shows `lengthM` from the start.
+vec3 alongBentRay(vec3 start, vec3 direction, float lengthM) {
+    vec4 clip = surfaceBlock.clipFromWorld[2] * vec4(start + direction * lengthM, 1.0);
+    vec2 pixels = surfaceBlock.mirrorSize[2].xy;
+    vec2 place = clamp((clip.xy / max(clip.w, 1e-4) * 0.5 + 0.5) * pixels, vec2(0.5), pixels - 0.5);
+    return texelsAbout(2, bentRadiance, bentDepth, place).rgb;
 }
 
 // Smooth light that a stretch of water scatters to its end [closed form; water of one brightness, that of the depth
@@ -99,7 +128,8 @@ vec3 dimming(float lengthM) { return exp(-waterBlock.beamAttenuation.rgb * lengt
 
 // Radiance along a ray in the air, without the sun: what stands there, else the sky.
 vec4 airAlong(vec3 start, vec3 direction, float spread, bool ask) {
-    Mirrored m = lookUp(0, airRadiance, airDepth, start, direction, kFirstLook, ask);
+    Mirrored m = lookUp(0, airRadiance, airDepth, start, direction, kFirstLook, kBorder, kLookTolerance,
+                        kEndless, ask);
     vec3 up = normalize(vec3(direction.x, max(abs(direction.y), 1e-3), direction.z));
     return vec4(skyRadiance(up, spread) * (1.0 - m.radiance.a) + m.radiance.rgb, 1.0 - m.radiance.a);
 }
@@ -119,6 +149,8 @@ Interface interfaceAt(vec3 direction, vec3 normal, float variance, bool enters) 
     float lean = enters ? variance / max(cosSeen, sqrt(variance) + 1e-6) : 0.0;
     s.mirrored = reflect(direction, normalize(normal - vec3(direction.x, 0.0, direction.z) * lean));
     s.spread = (enters ? 2.0 : index) * sqrt(variance);
+    // What a steep wave mirrors along the surface meets it again.
+    s.mirrored.y = enters ? s.mirrored.y : -max(abs(s.mirrored.y), kLeastDown);
     if (enters) {
         s.reflectance = roughReflectance(cosSeen, index, variance);
         s.air = s.mirrored;
@@ -185,18 +217,17 @@ void main() {
     if (surfaceBlock.grid.w == 0.0) inscatter = veil(enters ? start : ray.origin, lost);
     vec3 fromWater = opaque.rgb * lost + inscatter, radiance;
     if (enters) {
-        // Where the picture does not have what the bent ray meets, the view along bent rays may.
         vec3 bent = refractedDirection(direction, normal, waterBlock.shape.y);
-        Mirrored met = lookUp(1, waterRadiance, waterDepth, start, bent, traced.z, traced.w < 0.0);
-        float share = -traced.w * met.radiance.a;
-        vec3 seen = met.radiance.rgb / max(met.radiance.a, 1e-3) * dimming(met.lengthM);
-        fromWater = share > 0.0 ? mix(opaque.rgb * lost, seen, share) + inscatter : fromWater;
+        if (traced.w < -1.5) fromWater = alongBentRay(start, bent, traced.z) * lost + inscatter;
         radiance = s.reflectance * fromAir.rgb + sun + (1.0 - s.reflectance) / index2 * fromWater;
 #ifdef FOAM
         radiance = withFoam(radiance, start, normal, -bent.y * traced.z, traced.z);
 #endif
     } else if (meets) {
-        Mirrored under = lookUp(1, waterRadiance, waterDepth, start, s.mirrored, kFirstLook, true);
+        // A wall may end at the surface, and be looked over from afar: nearer and nearer.
+        // What the view does not show looks like what it shows nearest to it: a wall goes on, water too.
+        Mirrored under = lookUp(1, waterRadiance, waterDepth, start, s.mirrored, kFirstLookUnder, kEndless,
+                                kEndless, kNearer, true);
         vec3 lostUnder = dimming(under.lengthM);
         vec3 mirrored = under.radiance.rgb * lostUnder + veil(start, lostUnder);
         radiance = ((1.0 - s.reflectance) * index2 * fromAir.rgb + sun + s.reflectance * mirrored) * lost + inscatter;

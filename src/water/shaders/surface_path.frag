@@ -1,16 +1,20 @@
 #version 450 core
-// Each pixel's way through the water (WaterPaths::path). A ray that enters through the surface is bent, and followed on
-// the screen to where the opaque surfaces' depth meets it. Drawn with fullscreen.vert.
+// Each pixel's way through the water (WaterPaths::path). A ray that enters through the surface is bent, and followed to
+// where it meets opaque surfaces: in the view along bent rays, which hides nothing that such rays meet, else (no such
+// view, or beyond its borders) on the screen. Drawn with fullscreen.vert.
 // Variant CROSSING: surface_side.glsl.
 #include "frame/view.shared.h"
 #include "water/paths.io.glsl"
 #include "water/surface_side.glsl"
 
 layout(binding = SHOAL_UNIT_PASS + 0) uniform sampler2D opaqueDepth;   // R32F view depth
+layout(binding = SHOAL_UNIT_PASS + 1) uniform sampler2D bentDepth;     // the same of the view along bent rays
 
 layout(location = 0) out vec4 outPath;
 
 const int kSearchSteps = 10;
+const int kBentSteps = 6;
+const float kBeyondBent = 0.02;     // of the view's size, over which it goes on as at its border
 const float kFirstGuess = 100.0;    // metres at most that the search begins at
 const float kBlindGuess = 2.0;      // and where nothing lies so near behind the pixel
 const float kLeastDepth = 0.02;     // metres that things may stand above the surface's point and count as wet
@@ -20,11 +24,11 @@ const float kLargestStep = 0.2;     // of the same
 const float kCloseEnough = 1e-3;    // of the path's length
 const float kHitTolerance = 0.02;   // of the path's length: how far off the opaque surface a bent ray may end
 
-// View depth of the opaque surfaces between texels (x): its inverse is even over a plane on the screen; where the four
+// View depth of opaque surfaces between texels (x): its inverse is even over a plane on the screen; where the four
 // texels lie on no plane (y: 0), that of the nearest.
-vec2 opaqueDepthAt(vec2 pixel) {
+vec2 depthAt(sampler2D depths, vec2 pixel, vec2 pixels) {
     vec2 corner = floor(pixel - 0.5), f = pixel - 0.5 - corner;
-    vec4 z = textureGather(opaqueDepth, (corner + 1.0) * size.zw, 0);   // (0, 1), (1, 1), (1, 0), (0, 0)
+    vec4 z = textureGather(depths, (corner + 1.0) / pixels, 0);   // (0, 1), (1, 1), (1, 0), (0, 0)
     vec4 inverse = mix(vec4(1.0 / kFarthestWater), 1.0 / z, greaterThan(z, vec4(0.0)));
     vec2 row = mix(inverse.wx, inverse.zy, f.x);
     float nearest = f.y < 0.5 ? (f.x < 0.5 ? inverse.w : inverse.z) : (f.x < 0.5 ? inverse.x : inverse.y);
@@ -67,7 +71,7 @@ vec4 followBent(vec3 start, vec3 direction, vec2 ownPixel, vec3 straight, bool a
         vec4 clip = clip0 + clip1 * t;
         vec2 pixel = (clip.xy / max(clip.w, 1e-4) * 0.5 + 0.5) * size.xy;
         vec2 inside = clamp(pixel, vec2(0.5), size.xy - 0.5);
-        vec2 opaque = opaqueDepthAt(inside);
+        vec2 opaque = depthAt(opaqueDepth, inside, size.xy);
         PixelRay ray = rayOfPixel(inside);
         vec3 hit = ray.origin + ray.step * opaque.x;
         if (inside != pixel) {
@@ -98,6 +102,43 @@ vec4 followBent(vec3 start, vec3 direction, vec2 ownPixel, vec3 straight, bool a
     return bestMiss <= kHitTolerance * best.z + 0.01 ? best : vec4(lowEnd, -1.0);
 }
 
+// Metres along a bent ray to what it meets in the view along bent rays (x); y: 1 where that view shows it. first: where
+// the search begins. From there its eye sees nearly along the ray: few steps.
+vec2 followInBentView(vec3 start, vec3 direction, float first, bool ask) {
+    vec4 depthRow = surfaceBlock.depthRow[2];
+    vec4 clip0 = surfaceBlock.clipFromWorld[2] * vec4(start, 1.0);
+    vec4 clip1 = surfaceBlock.clipFromWorld[2] * vec4(direction, 0.0);
+    float depth0 = dot(depthRow, vec4(start, 1.0)), depth1 = dot(depthRow, vec4(direction, 0.0));
+    vec2 pixels = surfaceBlock.mirrorSize[2].xy;
+    float t = first, low = 0.0, gLow = max(first * depth1, 1e-3), high = -1.0, gHigh = 0.0;
+    float best = first, bestMiss = 1e30, shown = 0.0;
+    int rounds = ask ? kBentSteps : 0;
+    for (int i = 0; i < rounds; ++i) {
+        vec4 clip = clip0 + clip1 * t;
+        float depth = max(depth0 + depth1 * t, 1e-3);
+        vec2 pixel = (clip.xy / max(clip.w, 1e-4) * 0.5 + 0.5) * pixels;
+        vec2 inside = clamp(pixel, vec2(0.5), pixels - 0.5);
+        shown = all(lessThan(abs(pixel - inside), kBeyondBent * pixels)) ? 1.0 : 0.0;
+        vec3 point = start + direction * t;
+        float seen = depthAt(bentDepth, inside, pixels).x, g = seen - depth;
+        vec3 hit = surfaceBlock.bentEye.xyz + (point - surfaceBlock.bentEye.xyz) * (seen / depth);
+        float miss = distance(hit, point);
+        best = miss < bestMiss ? t : best;
+        bestMiss = min(miss, bestMiss);
+        if (miss < kCloseEnough * t) break;
+        low = g > 0.0 ? t : low, gLow = g > 0.0 ? g : gLow;
+        high = g > 0.0 ? high : t, gHigh = g > 0.0 ? gHigh : g;
+        // Exact for a level floor; then between by secants and halves in turn.
+        float level = toHeightOf(hit, start, direction), secant = low + (high - low) * gLow / max(gLow - gHigh, 1e-6);
+        float outwards = max(distance(hit, start), 1.05 * t);
+        bool within = level > low && (high < 0.0 || level < high);
+        t = i == 0 && within ? level : high < 0.0 ? outwards : (i & 1) == 0 ? secant : 0.5 * (low + high);
+        t = clamp(t, 0.0, kFarthestWater);
+    }
+    // Behind what hides it: as far as what is seen beside it.
+    return vec2(best, shown);
+}
+
 void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
     float surface = texelFetch(waterSurfaceDepth, at, 0).x, opaque = texelFetch(opaqueDepth, at, 0).x;
@@ -112,7 +153,10 @@ void main() {
     vec3 normal = decodeNormal(texelFetch(waterSurfaceNormal, at, 0).xy);
     vec3 bent = refractedDirection(direction, normal, waterBlock.shape.y);
     bool enters = surface > 0.0;
-    vec4 met = followBent(start, bent, gl_FragCoord.xy, ray.origin + direction * opaqueM, enters);
+    vec3 straight = ray.origin + direction * opaqueM;
+    float first = clamp(toHeightOf(straight, start, bent), kLeastDepth, distance(straight, start) + kBlindGuess);
+    vec2 metBent = followInBentView(start, bent, first, enters && surfaceBlock.mirrorSize[2].z > 0.0);
+    vec4 met = followBent(start, bent, gl_FragCoord.xy, straight, enters && metBent.y == 0.0);
     vec2 offset = (insidePicture(met.xy) - gl_FragCoord.xy) * size.zw;
     vec2 border = 0.5 - abs(met.xy * size.zw - 0.5);
     float guessed = min(met.w, -clamp(1.0 - min(border.x, border.y) / kSoftBorder, 0.0, 1.0));
@@ -127,5 +171,6 @@ void main() {
     bool wet = fromEye || !drawn || aroundArea;
     float straightWaterM = wet ? clamp(end - begin, 0.0, kFarthestWater) : 0.0;
 
-    outPath = enters ? vec4(offset, met.z, guessed) : vec4(0.0, 0.0, straightWaterM, fromEye ? 1.0 : 0.0);
+    vec4 entered = metBent.y > 0.0 ? vec4(0.0, 0.0, metBent.x, -2.0) : vec4(offset, met.z, guessed);
+    outPath = enters ? entered : vec4(0.0, 0.0, straightWaterM, fromEye ? 1.0 : 0.0);
 }

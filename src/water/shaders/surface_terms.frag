@@ -6,7 +6,7 @@
 #include "water/surface.shared.h"
 #include "water/waves.io.glsl"
 
-layout(binding = SHOAL_UNIT_PASS + 1) uniform sampler2D opaqueDepth;
+layout(binding = SHOAL_UNIT_OPAQUE_DEPTH) uniform sampler2D opaqueDepth;
 layout(binding = SHOAL_UNIT_PASS + 3) uniform sampler2D spreadTexture;
 
 layout(location = 0) out vec4 outTransmittance;

@@ -71,6 +71,7 @@ struct Surface::State {
 
     std::vector<ChosenView> chosen;
     std::vector<MirrorView> needed;
+    std::vector<SurfaceInputs::Mirror> mirrors;
     SurfaceGrid grid;
 
     Result<TracePrograms> makeTrace(bool crossing, Defines defines);
@@ -79,7 +80,8 @@ struct Surface::State {
     Result<void> makeBuffers();
     Result<void> resize(int width, int height);
     Result<void> resizeTerms(int width, int height);
-    SurfaceBlock blockFor(const SurfaceParams& params, const SurfaceInputs* inputs) const;
+    SurfaceBlock blockFor(const SurfaceParams& params, std::span<const SurfaceInputs::Mirror> drawn,
+                          bool inscatter) const;
     void drawMesh(const frame::Context& context, const Body& body, gl::TextureView opaque, const gl::Program& mesh);
     void bindPaths() const;
     void drawTerms(const frame::Context& context, const SurfaceInputs& inputs);
@@ -157,20 +159,21 @@ Result<void> Surface::State::resizeTerms(int width, int height) {
     return {};
 }
 
-SurfaceBlock Surface::State::blockFor(const SurfaceParams& params, const SurfaceInputs* inputs) const {
+SurfaceBlock Surface::State::blockFor(const SurfaceParams& params, std::span<const SurfaceInputs::Mirror> drawn,
+                                      bool inscatter) const {
     SurfaceBlock b;
-    b.grid = {grid.cell, grid.middle.x, grid.middle.y, inputs && inputs->inscatter ? 1.0f : 0.0f};
+    b.grid = {grid.cell, grid.middle.x, grid.middle.y, inscatter ? 1.0f : 0.0f};
     b.look = {params.roughness * params.roughness, params.foam ? 1.0f : 0.0f, params.foamDepth, 0};
-    const std::size_t count = inputs ? std::min(chosen.size(), inputs->mirrors.size()) : 0;
-    for (int k = 0; k < 2; ++k) b.mirrorSize[k] = {1, 1, 0, 0};
-    for (std::size_t i = 0; i < count; ++i) {
-        const SurfaceInputs::Mirror& m = inputs->mirrors[i];
+    for (Vec4& size : b.mirrorSize) size = {1, 1, 0, 0};
+    for (std::size_t i = 0; i < std::min(chosen.size(), drawn.size()); ++i) {
+        const SurfaceInputs::Mirror& m = drawn[i];
         if (!m.radiance || !m.viewDepth) continue;
         const int k = int(chosen[i].shows);
         b.clipFromWorld[k] = m.view.clipFromWorld();
         const Mat4& v = m.view.viewFromWorld;
         b.depthRow[k] = {-v(2, 0), -v(2, 1), -v(2, 2), -v(2, 3)};
         b.mirrorSize[k] = {float(m.viewDepth.width), float(m.viewDepth.height), 1, 0};
+        if (k == kBentView) b.bentEye = {m.view.eye.x, m.view.eye.y, m.view.eye.z, 1};
     }
     return b;
 }
@@ -240,10 +243,15 @@ void Surface::prepare(const frame::Context& context, const SurfaceParams& params
     State& s = *state_;
     s.chosen = chooseViews(context, params, body, sceneBounds);
     s.needed.clear();
+    s.mirrors.clear();
     for (const ChosenView& view : s.chosen) s.needed.push_back(view.view);
 }
 
 std::span<const Surface::MirrorView> Surface::neededViews() const { return state_->needed; }
+
+void Surface::useMirrors(std::span<const SurfaceInputs::Mirror> mirrors) {
+    state_->mirrors.assign(mirrors.begin(), mirrors.end());
+}
 
 void Surface::trace(const frame::Context& context, const SurfaceParams& params, const Body& body,
                     gl::TextureView viewDepth, gl::TextureView depth) {
@@ -257,7 +265,7 @@ void Surface::trace(const frame::Context& context, const SurfaceParams& params, 
     s.viewBlock.bindUniform(SHOAL_BLOCK_VIEW);
     s.waterBlock.write(makeWaterBlock(body, {}));
     s.waterBlock.bindUniform(SHOAL_BLOCK_WATER);
-    s.block.write(s.blockFor(params, nullptr));
+    s.block.write(s.blockFor(params, s.mirrors, false));
     s.block.bindUniform(SHOAL_BLOCK_WATER_PASS);
     body.gpuWaves->bind();
     const TracePrograms& programs = s.traceFor(mayCross(context.view, body), body.waves);
@@ -266,8 +274,13 @@ void Surface::trace(const frame::Context& context, const SurfaceParams& params, 
     const gl::PassScope pass(context.timer, "water path");
     s.pathTarget.bind();
     s.bindPaths();
+    gl::TextureView bentDepth = viewDepth;  // not looked at
+    for (std::size_t i = 0; i < std::min(s.chosen.size(), s.mirrors.size()); ++i)
+        if (s.chosen[i].shows == kBentView && s.mirrors[i].viewDepth) bentDepth = s.mirrors[i].viewDepth;
     gl::bindTexture(SHOAL_UNIT_PASS, viewDepth);
+    gl::bindTexture(SHOAL_UNIT_PASS + 1, bentDepth);
     glBindSampler(SHOAL_UNIT_PASS, 0);
+    glBindSampler(SHOAL_UNIT_PASS + 1, 0);
     s.fullscreen.draw(*programs.path);
 }
 
@@ -282,28 +295,32 @@ void Surface::compose(const frame::Context& context, const SurfaceParams& params
     s.viewBlock.bindUniform(SHOAL_BLOCK_VIEW);
     s.waterBlock.write(makeWaterBlock(body, lights));
     s.waterBlock.bindUniform(SHOAL_BLOCK_WATER);
-    s.block.write(s.blockFor(params, &inputs));
+    s.block.write(s.blockFor(params, inputs.mirrors, bool(inputs.inscatter)));
     s.block.bindUniform(SHOAL_BLOCK_WATER_PASS);
     body.gpuWaves->bind();
     s.bindPaths();
-    gl::TextureView textures[] = {inputs.radiance,  inputs.viewDepth, inputs.inscatter, s.spread.view(),
-                                  inputs.viewDepth, inputs.viewDepth, inputs.viewDepth, inputs.viewDepth};
-    if (!textures[2]) textures[2] = inputs.viewDepth;  // not looked at
+    const gl::TextureView none = inputs.viewDepth;  // not looked at
+    gl::TextureView textures[] = {none, none, inputs.inscatter ? inputs.inscatter : none, s.spread.view(), none, none,
+                                  none, none};
+    constexpr int kFirstOf[] = {4, 6, 0};  // by Mirror
     for (std::size_t i = 0; i < std::min(s.chosen.size(), inputs.mirrors.size()); ++i)
         if (inputs.mirrors[i].radiance && inputs.mirrors[i].viewDepth) {
-            textures[4 + 2 * int(s.chosen[i].shows)] = inputs.mirrors[i].radiance;
-            textures[5 + 2 * int(s.chosen[i].shows)] = inputs.mirrors[i].viewDepth;
+            textures[kFirstOf[s.chosen[i].shows]] = inputs.mirrors[i].radiance;
+            textures[kFirstOf[s.chosen[i].shows] + 1] = inputs.mirrors[i].viewDepth;
         }
     for (int i = 0; i < 8; ++i) {
         gl::bindTexture(SHOAL_UNIT_PASS + i, textures[i]);
         glBindSampler(GLuint(SHOAL_UNIT_PASS + i), 0);
     }
-    s.smooth.bind(SHOAL_UNIT_PASS);
+    gl::bindTexture(SHOAL_UNIT_OPAQUE_COPY, inputs.radiance);
+    s.smooth.bind(SHOAL_UNIT_OPAQUE_COPY);
+    gl::bindTexture(SHOAL_UNIT_OPAQUE_DEPTH, inputs.viewDepth);
+    glBindSampler(SHOAL_UNIT_OPAQUE_DEPTH, 0);
     {
         const gl::PassScope pass(context.timer, "water composition");
         s.fullscreen.draw(*s.compose[params.foam ? 1 : 0]);
     }
-    glBindSampler(SHOAL_UNIT_PASS, 0);
+    glBindSampler(SHOAL_UNIT_OPAQUE_COPY, 0);
     if (s.termsWanted) s.drawTerms(context, inputs);
 }
 
