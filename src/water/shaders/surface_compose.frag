@@ -6,6 +6,7 @@
 // the water. Seen radiance is dimmed as the sharp beam is, by a + b (1 - f): light scattered nearly forward stays in
 // it.
 #include "frame/lighting.io.glsl"
+#include "frame/view.shared.h"
 #include "water/paths.io.glsl"
 #include "water/surface.lib.glsl"
 #include "water/surface.shared.h"
@@ -34,8 +35,9 @@ const int kLooks = 5;
 const float kBorder = 0.08;           // of the picture's size
 const float kEndless = 1e6;
 const float kNearer = 0.4;
+const float kBefore = 0.03;           // of a start's depth, by which a thing may lie before it and still be met
 const float kLeastDown = 0.02;        // of a unit ray mirrored into the water
-const float kLeastAhead = 0.05;       // of a length: what lies beside or behind a view's eye is taken for so far ahead
+const float kLeastAhead = 0.25;       // of a length: what lies beside or behind a view's eye is taken for so far ahead
 const float kLookTolerance = 0.5;     // of the length: how far off its ray a thing may be to be taken for it
 
 // Sharp to wide: spread is the standard deviation of direction, radians.
@@ -77,20 +79,21 @@ Mirrored lookUp(int which, sampler2D radiances, sampler2D depths, vec3 start, ve
     vec4 clip0 = clipFromWorld * vec4(start, 1.0), clip1 = clipFromWorld * vec4(direction, 0.0);
     float depth0 = dot(surfaceBlock.depthRow[which], vec4(start, 1.0));
     float depth1 = dot(surfaceBlock.depthRow[which], vec4(direction, 0.0));
-    float t = first, met = t, best = t, bestMiss = 1e30;
+    float t = first, met = t, best = t, bestMiss = 1e30;   // best: where what fits best is met
     vec2 bestAt = vec2(0.0);
-    // Where the ray is as deep as what is seen there; level water has it at the first look. What is nearer than the
-    // start stands where the surface ends.
+    // Where the ray is as deep as what is seen there; level water has it at the first look. What is as near as the
+    // start stands where the surface ends, what is nearer is not on the ray.
     int looks = ask && surfaceBlock.mirrorSize[which].z > 0.0 ? kLooks : 0;
     for (int i = 0; i < looks; ++i) {
         t = min(met, kFarthestWater);
         vec4 clip = clip0 + clip1 * t;
         vec2 at = clip.xy / max(clip.w, kLeastAhead * t) * 0.5 + 0.5;
         vec2 place = clamp(at * pixels, vec2(0.5), pixels - 0.5);
-        float seen = texelFetch(depths, ivec2(place), 0).x;
-        met = seen > 0.0 ? clamp((seen - depth0) / max(depth1, 1e-4), 0.0, kFarthestWater) : nothing * t;
-        float miss = seen > 0.0 ? abs(met - t) / (t + 1.0) : 1e20;
-        best = miss < bestMiss ? t : best;
+        float seen = texelFetch(depths, ivec2(place), 0).x, behind = seen - depth0;
+        bool onRay = seen > 0.0 && behind > -kBefore * (depth0 + 1.0);
+        met = onRay ? clamp(behind / max(depth1, kLeastAhead), 0.0, kFarthestWater) : nothing * t;
+        float miss = onRay ? abs(met - t) / (t + 1.0) : 1e20;
+        best = miss < bestMiss ? met : best;
         bestAt = miss < bestMiss ? at : bestAt;
         bestMiss = min(miss, bestMiss);
         if (miss < 1e-3) break;
@@ -125,6 +128,20 @@ vec3 veil(vec3 start, vec3 lost) {
 }
 
 vec3 dimming(float lengthM) { return exp(-waterBlock.beamAttenuation.rgb * lengthM); }
+
+// The same for a mirrored stretch: as much as the picture's own water has in that direction, with its shadows and
+// shafts.
+vec3 mirroredVeil(vec3 start, vec3 direction, vec3 lost) {
+    vec4 clip = clipFromWorld * vec4(direction, 0.0);
+    vec2 at = clamp(clip.xy / max(clip.w, kLeastAhead) * 0.5 + 0.5, vec2(0.0), vec2(1.0));
+    vec2 pixels = vec2(textureSize(opaqueDepth, 0));
+    ivec2 there = ivec2(clamp(at * pixels, vec2(0.5), pixels - 0.5));
+    vec3 lostThere = dimming(texelFetch(waterPathTexture, there, 0).z);
+    vec3 full = veil(start, lost);
+    vec3 like = texelFetch(inscatterTexture, there, 0).rgb * (1.0 - lost) / max(1.0 - lostThere, vec3(1e-3));
+    bool known = surfaceBlock.grid.w > 0.0 && texelFetch(waterSurfaceDepth, there, 0).x <= 0.0;
+    return known ? min(like, 2.0 * full) : full;
+}
 
 // Radiance along a ray in the air, without the sun: what stands there, else the sky.
 vec4 airAlong(vec3 start, vec3 direction, float spread, bool ask) {
@@ -229,7 +246,7 @@ void main() {
         Mirrored under = lookUp(1, waterRadiance, waterDepth, start, s.mirrored, kFirstLookUnder, kEndless,
                                 kEndless, kNearer, true);
         vec3 lostUnder = dimming(under.lengthM);
-        vec3 mirrored = under.radiance.rgb * lostUnder + veil(start, lostUnder);
+        vec3 mirrored = under.radiance.rgb * lostUnder + mirroredVeil(start, s.mirrored, lostUnder);
         radiance = ((1.0 - s.reflectance) * index2 * fromAir.rgb + sun + s.reflectance * mirrored) * lost + inscatter;
     } else {
         radiance = traced.z > 0.0 ? fromWater : opaque.rgb;

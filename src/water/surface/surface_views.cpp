@@ -210,7 +210,8 @@ std::vector<ChosenView> chooseViews(const frame::Context& context, const Surface
     if (depth > 0 && looksDown && (above || crossing))
         add(bentView(view, body, depth, fineScale, 0.5f * margin), kBentView);
     if (depth > 0 && looksUp && (!above || crossing))
-        add(mirroredView(view, level, true, fineScale, margin), kWaterMirror);
+        // An eye under a crest above the level: mirrored at its own height, not under what it sees.
+        add(mirroredView(view, std::max(level, view.eye.y), true, fineScale, margin), kWaterMirror);
     return chosen;
 }
 
