@@ -1,10 +1,9 @@
 #version 450 core
 // Light on each pixel's surface that came through the water's surface or was thrown up by it, from the caustic maps;
 // and the smooth light of sky and scattered sun under water. Variants: NO_NORMALS, normals are taken from the depth;
-// NO_LAMPS, the sun alone; FEW_SLOTS, two maps of it at most;
-// TILES, only tiles listed before: with surfaces behind others, and with WATERLINE those near it too; without it all
-// pixels as if no wave were high, the surface threw no light up and nothing lay behind anything: tiles where that does
-// not hold are listed.
+// NO_LAMPS, the sun alone; FEW_SLOTS, two maps of it at most, besides that of what the surface throws up;
+// TILES, only tiles listed before: with surfaces behind others, and with WATERLINE those near it; without it all
+// pixels as if no wave were high and nothing lay behind anything: tiles where that does not hold are listed.
 // llvmpipe runs every branch and every loop at least once: hence two passes, and straight lines in the first.
 #include "water/caustic.shared.h"
 #include "frame/gbuffer.lib.glsl"
@@ -71,56 +70,66 @@ vec3 normalAt(ivec2 pixel, vec3 position, float depth) {
 #endif
 }
 
+#ifndef NO_LAMPS
 // Where light of the slot comes from at p: that way along 1 m of height.
 vec3 towardsLight(vec3 p, int slot) {
-    vec4 mean = lightSpace.slots[slot].mean;
-#ifndef NO_LAMPS
-    vec4 source = lightSpace.slots[slot].source;
+    vec4 mean = lightSpace.slots[slot].mean, source = lightSpace.slots[slot].source;
     vec3 way = source.xyz - p;
     if (source.w > 0.5) return way / max(abs(way.y), 1e-3);
-#endif
     return vec3(-mean.x, -mean.w, -mean.y);
 }
+#endif
 
-// The map's value for a surface at light-space place s: bilinear over what is seen of one height. group: any slot of
-// the map's group; slope: of the surface in light space; pixelM: metres a pixel; behind: set where the second layer
-// would have to be looked at.
-float mapValue(vec2 s, float height, float slope, float pixelM, int group, int slot, vec4 place, inout bool behind) {
-    int size = int(lightSpace.counts.y);
-    vec4 rows = lightSpace.slots[group].rows, heights = lightSpace.slots[group].height;
-    float side = lightSpace.slots[group].mean.w;
-    float tolerance = kGapM + 1.5 * place.z * slope;
+// A surface as the maps are asked about it.
+struct Receiver {
+    vec2 s;        // place in light space
+    float height;  // world y
+    float slope;   // of the surface in light space
+    float pixelM;  // metres a pixel
+    float side;    // -1 light comes down, 1 up
+};
+
+// The map's value at t (texels of the slot): bilinear over what is seen of one height. perM: texels a metre; behind:
+// set where the second layer would have to be looked at.
+float mapValue(Receiver r, vec2 t, float perM, int slot, inout bool behind) {
+    float size = lightSpace.counts.y;
+    float tolerance = kGapM * perM + 1.5 * r.slope;   // texels
     // A pixel that covers many texels looks at a coarser mip. Squares begin at whole texels of all mips.
-    int mip = int(min(log2(max(1.2 * pixelM * place.w, 1.0)), causticBlock.maps.x - 1.0));
-    vec2 at = s * (place.w * exp2(-float(mip))) - 0.5, low = floor(at), f = at - low;
-    ivec2 corner = ivec2(low) - (ivec2(floor(place.xy * place.w + 0.5)) >> mip);
-    vec4 w = vec4((1.0 - f.x) * (1.0 - f.y), f.x * (1.0 - f.y), (1.0 - f.x) * f.y, f.x * f.y);
-    ivec2 last = ivec2((size >> mip) - 1);
-    ivec2 a = clamp(corner, ivec2(0), last), b = clamp(corner + 1, ivec2(0), last);
+    float covered = 1.2 * r.pixelM * perM;
+    bool coarse = causticBlock.maps.x > 1.0 && covered >= 2.0, coarsest = causticBlock.maps.x > 2.0 && covered >= 4.0;
+    float scale = coarsest ? 0.25 : coarse ? 0.5 : 1.0;
+    vec2 at = t * scale - 0.5, low = floor(at), f = at - low;
     // Mips lie above the map itself (one level for the sampler: a level of each pixel's own costs llvmpipe dear).
-    ivec2 shelf = mip > 0 ? ivec2(size - (2 * size >> mip), size) : ivec2(0);
+    vec2 shelf = vec2(max(size - 2.0 * size * scale, 0.0), coarse ? size : 0.0), last = vec2(size * scale - 1.0);
+    vec2 low0 = clamp(low, vec2(0.0), last), high0 = clamp(low + 1.0, vec2(0.0), last);
+    ivec2 a = ivec2(shelf + low0), b = ivec2(shelf + high0);
+    vec2 g = 1.0 - f;
+    vec4 w = vec4(g.x * g.y, f.x * g.y, g.x * f.y, f.x * f.y);
     int layer = 2 * slot;
     // Irradiance, and the height of what has it.
-    vec2 first = texelFetch(causticMaps, ivec3(shelf + a, layer), 0).xy;
-    vec2 second = texelFetch(causticMaps, ivec3(shelf + ivec2(b.x, a.y), layer), 0).xy;
-    vec2 third = texelFetch(causticMaps, ivec3(shelf + ivec2(a.x, b.y), layer), 0).xy;
-    vec2 fourth = texelFetch(causticMaps, ivec3(shelf + b, layer), 0).xy;
+    vec2 first = texelFetch(causticMaps, ivec3(a, layer), 0).xy;
+    vec2 second = texelFetch(causticMaps, ivec3(b.x, a.y, layer), 0).xy;
+    vec2 third = texelFetch(causticMaps, ivec3(a.x, b.y, layer), 0).xy;
+    vec2 fourth = texelFetch(causticMaps, ivec3(b, layer), 0).xy;
     vec4 value = vec4(first.x, second.x, third.x, fourth.x), lit = vec4(first.y, second.y, third.y, fourth.y);
-    bvec4 hidden = greaterThan(side * (vec4(height) - lit), vec4(tolerance));
-    float sum = dot(w, mix(value, vec4(0.0), hidden));
+    bvec4 hidden = greaterThan((r.side * perM) * (vec4(r.height) - lit), vec4(tolerance));
+    vec4 seen = mix(w, vec4(0.0), hidden);
+    float sum = dot(seen, value);
     // What the first layer hides may lie in the second.
-    w = mix(vec4(0.0), w, hidden);
 #ifndef TILES
-    behind = behind || any(greaterThan(w, vec4(0.0)));
+    behind = behind || seen != w;
 #else
-    ivec2 ta = (a << mip) + ((1 << mip) >> 1), tb = (b << mip) + ((1 << mip) >> 1);
+    w -= seen;
+    vec4 rows = lightSpace.slots[slot].rows, heights = lightSpace.slots[slot].height;
+    int mip = coarsest ? 2 : coarse ? 1 : 0;
+    ivec2 ta = (ivec2(low0) << mip) + ((1 << mip) >> 1), tb = (ivec2(high0) << mip) + ((1 << mip) >> 1);
     ta.y = int(rows.x) * ta.y + int(rows.y), tb.y = int(rows.x) * tb.y + int(rows.y);
     for (int i = 0; i < 4 && (w.x > 0.0 || w.y > 0.0 || w.z > 0.0 || w.w > 0.0); ++i) {
         ivec2 at2 = ivec2((i & 1) == 0 ? ta.x : tb.x, i < 2 ? ta.y : tb.y);
         ivec2 map2 = ivec2((i & 1) == 0 ? a.x : b.x, i < 2 ? a.y : b.y);
         float depth = texelFetch(litDepth, ivec3(at2, layer + 1), 0).x;
-        bool farther = depth > 0.0 && side * (height - heightOfDepth(depth, heights)) > tolerance;
-        float value2 = texelFetch(causticMaps, ivec3(shelf + map2, layer + 1), 0).x;
+        bool farther = depth > 0.0 && r.side * perM * (r.height - heightOfDepth(depth, heights)) > tolerance;
+        float value2 = texelFetch(causticMaps, ivec3(map2, layer + 1), 0).x;
         sum += farther || secondUsed[slot] == 0u ? 0.0 : w[i] * value2;
         if (i == 3) w = vec4(0.0);
     }
@@ -128,11 +137,47 @@ float mapValue(vec2 s, float height, float slope, float pixelM, int group, int s
     return sum;
 }
 
-// 0 outside of a slot's square, 1 inside; a finer slot fades towards the rim.
-float insideSlot(vec2 s, vec4 place, bool fades) {
-    vec2 t = (s - place.xy) * place.w, rim = min(t, lightSpace.counts.y - t);
-    float inwards = min(rim.x, rim.y);
-    return fades ? clamp((inwards - 1.0) / kRimTexels, 0.0, 1.0) : step(0.0, inwards);
+// The square of slot first + i. Of the sun alone a pixel asks for its slots, from 0 on, or for `thrownUp`, a single
+// one.
+vec4 placeOf(int first, int i, vec4 thrownUp) {
+#ifdef NO_LAMPS
+    return first == 0 ? lightSpace.slots[i].place : thrownUp;
+#else
+    return lightSpace.slots[min(first + i, SHOAL_MAX_LIGHT_SLOTS - 1)].place;
+#endif
+}
+
+// The value of the finest of slots first to end there, and of the next one where that fades. left: the share of the
+// light that none of them has.
+float slotsValue(Receiver r, int first, int end, vec4 thrownUp, inout float left, inout bool behind) {
+    // (A count that the compiler does not know: it would unroll the loop, and llvmpipe run both turns for all.)
+    int from = first, blends = int(causticBlock.maps.z);
+    float value = 0.0, middle = 0.5 * lightSpace.counts.y;
+    for (int k = 0; k < blends; ++k) {
+        int slot = -1;
+        float share = 0.0, perM = 0.0;
+        vec2 t = vec2(0.0);
+        for (int i = 0; i < kMostCascades; ++i) {
+            int other = first + i;
+            vec4 place = placeOf(first, i, thrownUp);
+            vec2 texels = (r.s - place.xy) * place.w, off = abs(texels - middle);
+            float inwards = middle - max(off.x, off.y);
+            // A finer slot fades towards the rim.
+            float part = other + 1 < end ? clamp((inwards - 1.0) / kRimTexels, 0.0, 1.0) : step(0.0, inwards);
+            part = min(part, left);
+            bool taken = slot < 0 && other >= from && other < end && part > 0.0;
+            slot = taken ? other : slot;
+            share = taken ? part : share;
+            perM = taken ? place.w : perM;
+            t = taken ? texels : t;
+        }
+        if (slot < 0) break;
+        value += share * mapValue(r, t, perM, slot, behind);
+        left -= share;
+        from = slot + 1;
+        if (left <= 0.0) break;
+    }
+    return value;
 }
 
 const float kBorderM = 0.01;
@@ -143,7 +188,7 @@ bool isUnderWater(vec3 p) {
     bool inArea = all(greaterThanEqual(p.xz, area.xy - kBorderM)) && all(lessThanEqual(p.xz, area.zw + kBorderM));
     float surface = 0.0;
 #ifdef WATERLINE
-    if (abs(p.y - waterBlock.shape.x) <= waterBlock.shape.w) surface = waveSlopeAt(p.xz).x;
+    if (abs(p.y - waterBlock.shape.x) <= waterBlock.shape.w) surface = waveHeightAt(p.xz);
 #endif
     return inArea && p.y - waterBlock.shape.x < surface;
 }
@@ -176,60 +221,50 @@ void main() {
 
     vec3 direct = vec3(0.0);
     float sunLeft = causticBlock.maps.y == 0.0 ? 1.0 : 0.0;   // share of the sun that no map covers
-#if defined(NO_LAMPS) && !defined(WATERLINE)
-    // The sun's slots come first.
-    if (causticBlock.maps.y != 0.0) {
-        const int group = 0;
-        int end = int(lightSpace.slots[group].rows.z);
+#ifdef NO_LAMPS
+    // Of the sun's light what is under water gets that which comes down, the rest what the surface throws up: the last
+    // slot's.
+    int sunSlots = causticBlock.maps.y == 0.0 ? 0 : int(lightSpace.slots[0].rows.z);
+    vec4 thrownUp = lightSpace.slots[0].place;
+    for (int i = 1; i <= kMostCascades; ++i) thrownUp = i == sunSlots ? lightSpace.slots[i].place : thrownUp;
+    int first = under ? 0 : sunSlots, end = under ? sunSlots : int(lightSpace.counts.x);
+    float side = under ? -1.0 : 1.0;
+    // (What a low sun's light is thrown up by is taken to go straight up: slot_fit.cpp.)
+    vec2 fromLevel = under ? waterBlock.sunRefracted.xz / waterBlock.sunRefracted.y
+                           : waterBlock.toSun.xz / max(waterBlock.toSun.y, 1e-3);
+    if (!under && waterBlock.toSun.y < 0.05) fromLevel = vec2(0.0);
+    float facing = dot(normal, vec3(fromLevel.x, -side, fromLevel.y)), tilt = length(normal.xz) / max(facing, 0.05);
+    float left = there && facing > 0.0 ? 1.0 : 0.0;
+    vec2 s = p.xz + fromLevel * (side * (p.y - waterBlock.shape.x));
+    float value = slotsValue(Receiver(s, p.y, tilt, pixelM, side), first, end, thrownUp, left, behind);
+    direct = lightSpace.slots[0].irradiance.rgb * (under ? beam : vec3(1.0)) * (value * max(facing, 0.0));
+    if (sunSlots > 0) sunLeft = left;
 #else
     int count = int(lightSpace.counts.x);
     for (int group = 0, end = 0; group < count; group = end) {
         end = int(lightSpace.slots[group].rows.z);
-#endif
         bool reflected = lightSpace.slots[group].flags.y > 0.5;
         vec3 toLight = towardsLight(p, group);
         float facing = dot(normal, toLight), tilt = length(normal.xz) / max(facing, 0.05);
-        vec2 s = lightSpaceOf(p, group);
-        float left = there && reflected != under ? 1.0 : 0.0, value = 0.0;
-        if (facing <= 0.0) left = 0.0;
-        // The finest slot there, and the next one where that fades.
-        // (A count that the compiler does not know: it would unroll the loop, and llvmpipe run both turns for all.)
-        int from = group, blends = int(causticBlock.maps.z);
-        for (int k = 0; k < blends; ++k) {
-            int slot = -1;
-            float share = 0.0;
-            vec4 place = lightSpace.slots[group].place;
-            for (int i = 0; i < kMostCascades; ++i) {
-                int other = min(group + i, SHOAL_MAX_LIGHT_SLOTS - 1);
-                float part = min(insideSlot(s, lightSpace.slots[other].place, other + 1 < end), left);
-                bool taken = slot < 0 && other >= from && other < end && part > 0.0;
-                slot = taken ? other : slot;
-                share = taken ? part : share;
-                place = taken ? lightSpace.slots[other].place : place;
-            }
-            if (slot < 0) break;
-            value += share * mapValue(s, p.y, tilt, pixelM, group, slot, place, behind);
-            left -= share;
-            from = slot + 1;
-            if (left <= 0.0) break;
-        }
+        float left = there && facing > 0.0 && reflected != under ? 1.0 : 0.0;
+        Receiver r = Receiver(lightSpaceOf(p, group), p.y, tilt, pixelM, lightSpace.slots[group].mean.w);
+        float value = slotsValue(r, group, end, vec4(0.0), left, behind);
         vec3 through = reflected ? vec3(1.0) : beam;
-#ifndef NO_LAMPS
         vec4 source = lightSpace.slots[group].source;
         if (source.w > 0.5) {
             float scale = lampScale(p.y, waterBlock.shape.x, source.y);
             value *= scale * scale;
             if (!reflected) through = exp(-waterBlock.beamAttenuation.rgb * levelPath(p, group));
         }
-#endif
         direct += lightSpace.slots[group].irradiance.rgb * through * (value * max(facing, 0.0));
         if (lightSpace.slots[group].flags.x < 0.0 && !reflected) sunLeft = left;
     }
+#endif
     float sunFacing = max(dot(normal, waterBlock.sunRefracted.xyz) / waterBlock.sunRefracted.y, 0.0);
     if (under) direct += onLevel * beam * (sunLeft * sunFacing);
 #ifndef TILES
     int tile = 2 * (corner.y * int(gl_NumWorkGroups.x) + corner.x);
-    if (there && p.y > waterBlock.shape.x - waterBlock.shape.w) tileFlags[tile] = 1u;
+    if (there && abs(p.y - waterBlock.shape.x) <= waterBlock.shape.w) tileFlags[tile] = 1u;
     if (behind) tileFlags[tile + 1] = 1u;
 #endif
     if (!inside) return;
