@@ -99,6 +99,6 @@ void main() {
     light += lampsInWater(path.start, path.direction, path.lengthM, jitter);
     light += lampsAbove(path.start, path.direction, path.lengthM, vec3(jitter, random.yz));
 #endif
-    vec3 even = decayOver(beamDecay(seen.directionY), seen.lengthM);
+    vec3 even = likeDecayOver(beamDecay(seen.directionY), seen.lengthM);
     imageStore(sourceImage, low, vec4(light / max(even, vec3(1e-6)), seenLength(seen.lengthM)));
 }

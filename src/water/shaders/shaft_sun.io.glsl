@@ -26,7 +26,14 @@ vec3 dimmedOver(vec3 k, float s, vec3 a) {
 }
 
 // What paths are compared by: metres, less and less of them the farther away they are and the dimmer.
-float seenLength(float lengthM) { return decayOver(waterBlock.beamAttenuation.w, lengthM); }
+float seenLength(float lengthM) { return lengthM / (1.0 + waterBlock.beamAttenuation.w * lengthM); }
+
+// decayOver but for 3 %, without powers: what light is kept over at reduced size and multiplied by at full size, so that
+// what they differ by cancels.
+vec3 likeDecayOver(vec3 k, float s) {
+    vec3 x = k * s, near = clamp(x, vec3(-3.0), vec3(3.0));
+    return s / (1.0 + 0.5 * (near + max(x - 3.0, vec3(0.0)) * 2.0) + near * near * (1.0 / 12.0));
+}
 
 // 1/sr.
 float shaftPhase(float cosTheta) {

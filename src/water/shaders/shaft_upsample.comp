@@ -43,7 +43,7 @@ void main() {
         vec4 weight = (vec4(g.x, f.x, g.x, f.x) * vec4(g.y, g.y, f.y, f.y) + 1e-3) * alike * wet;
         vec3 source = (a.rgb * weight.x + b.rgb * weight.y + c.rgb * weight.z + d.rgb * weight.w) /
                       (weight.x + weight.y + weight.z + weight.w);
-        vec3 even = decayOver(beamDecay(path.directionY), path.lengthM);
+        vec3 even = likeDecayOver(beamDecay(path.directionY), path.lengthM);
         imageStore(inscatterImage, at, vec4(max(source, vec3(0.0)) * even, 1.0));
     }
 }
