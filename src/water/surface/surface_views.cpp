@@ -18,7 +18,7 @@ constexpr float kWiden = 1.15f;                // of an orthographic view, beyon
 constexpr float kNearly = 0.05f;               // of its length, by which a ray may miss the water
 constexpr float kMostIncidence = radians(54);  // that the view along bent rays is laid out about: beyond, its eye would
                                                // stand so far off that what is near is small
-constexpr float kLeastSlope = 0.003f;  // downwards, of the rays that it is laid out for
+constexpr float kLeastSlope = 0.003f;          // downwards, of the rays that it is laid out for
 
 Vec3 column(const Mat4& m, int i) { return {m(0, i), m(1, i), m(2, i)}; }
 
@@ -180,6 +180,17 @@ std::optional<light::View> bentView(const light::View& view, const Body& body, f
                   kFinest * farther);
 }
 
+// Whether pixels may begin above the waves, at the eye's place.
+bool beginsInAir(const light::View& view, const Body& body) {
+    const double h = body.waves ? body.waves->at(double(view.eye.x), double(view.eye.z)).h : 0.0;
+    float highest = view.eye.y;
+    for (const Vec2 corner : {Vec2{-1, -1}, Vec2{1, -1}, Vec2{-1, 1}, Vec2{1, 1}}) {
+        const Vec3 p = transformPoint(view.viewFromClip, {corner.x, corner.y, 1});
+        highest = std::max(highest, transformPoint(view.worldFromView, p).y);
+    }
+    return double(highest) > double(body.params.level) + h;
+}
+
 }  // namespace
 
 std::vector<ChosenView> chooseViews(const frame::Context& context, const SurfaceParams& params, const Body& body,
@@ -190,6 +201,7 @@ std::vector<ChosenView> chooseViews(const frame::Context& context, const Surface
     const float level = body.params.level, height = body.waves ? float(body.waves->bounds().height) : 0.0f;
     const bool above = view.eye.y > level;
     const bool crossing = std::abs(view.eye.y - level) < height + 2 * view.nearZ;
+    const bool airy = above || (crossing && beginsInAir(view, body));
     bool looksDown = false, looksUp = false;
     forRays(view, [&](const Ray& ray) { (ray.direction.y < 0 ? looksDown : looksUp) = true; });
     // Things that stand in a wave's trough are mirrored too.
@@ -203,8 +215,10 @@ std::vector<ChosenView> chooseViews(const frame::Context& context, const Surface
         const Vec4 plane = under ? Vec4{0, -1, 0, level + slack} : Vec4{0, 1, 0, slack - level};
         chosen.push_back({{*seen, plane, under}, shows});
     };
-    if (sceneBounds.hi.y > level && (!above || looksDown))
-        add(above ? mirroredView(view, level, false, scale, margin) : windowView(view, body, scale, margin),
+    // An eye in a trough: mirrored at its own height.
+    if (sceneBounds.hi.y > level && (!airy || looksDown))
+        add(airy ? mirroredView(view, std::min(level, view.eye.y), false, scale, margin)
+                 : windowView(view, body, scale, margin),
             kAirMirror);
     const float depth = std::min(level - sceneBounds.lo.y, kDeepest);
     if (depth > 0 && looksDown && (above || crossing))
