@@ -208,7 +208,8 @@ std::vector<ChosenView> chooseViews(const frame::Context& context, const Surface
     const float slack = std::min(0.25f * height, 0.1f);
     const float scale = params.reflectionScale, fineScale = std::min(2 * scale, 1.0f);
     const float slope = body.waves ? float(body.waves->bounds().slope) : 0.0f;
-    const float margin = std::clamp(0.5f * slope, 0.04f, 0.2f);
+    // Waves tilt rays by twice their slope in the mirror; from below, all of it is seen.
+    const float margin = std::clamp(0.5f * slope, 0.04f, 0.2f), wide = std::clamp(0.75f * slope, 0.04f, 0.35f);
     const auto add = [&](std::optional<light::View> seen, Mirror shows) {
         if (!seen) return;
         const bool under = shows != kAirMirror;
@@ -225,7 +226,7 @@ std::vector<ChosenView> chooseViews(const frame::Context& context, const Surface
         add(bentView(view, body, depth, fineScale, 0.5f * margin), kBentView);
     if (depth > 0 && looksUp && (!above || crossing))
         // An eye under a crest above the level: mirrored at its own height, not under what it sees.
-        add(mirroredView(view, std::max(level, view.eye.y), true, fineScale, margin), kWaterMirror);
+        add(mirroredView(view, std::max(level, view.eye.y), true, fineScale, wide), kWaterMirror);
     return chosen;
 }
 
