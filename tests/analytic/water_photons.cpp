@@ -133,6 +133,35 @@ TEST_F(WaterPhotons, EnergyDoesNotDependOnSettings) {
     EXPECT_NEAR(mean(rig) / kExact, 1, 0.003);
 }
 
+// Footprints of dozens of texels and of hundreds: all of their light arrives, and without cracks between them.
+TEST_F(WaterPhotons, FewPhotonsLeaveNoCracks) {
+    const water::WaveField level = levelWater(), waves = patchP6();
+    FloorSetup setup;
+    setup.waves = &level;
+    for (const int resolution : {512, 2048})
+        for (const int photons : {1000, 10000}) {
+            FloorRig rig(device(), resolution);
+            setup.photons = photons;
+            rig.prepare(setup);
+            rig.trace();
+            const double exact = water::analytic::flatIrradiance(water::kWaterIndex, 0, 0, double(setup.depth));
+            double worst = 0;
+            for (const float value : rig.map()) worst = std::max(worst, std::abs(double(value) / exact - 1));
+            EXPECT_LT(worst, 0.01) << resolution << " texels, " << photons << " photons";
+        }
+    // Deep down curvature has spread them over a hundred times their cell.
+    FloorRig rig(device());
+    setup.waves = &waves, setup.depth = 60, setup.sideM = 60, setup.photons = 10000;
+    rig.prepare(setup);
+    rig.trace();
+    const std::vector<float> map = rig.map();
+    double sum = 0;
+    const std::size_t n = 512, rim = 64;
+    for (std::size_t j = rim; j < n - rim; ++j)
+        for (std::size_t i = rim; i < n - rim; ++i) sum += double(map[j * n + i]);
+    EXPECT_NEAR(sum / double((n - 2 * rim) * (n - 2 * rim)) / 0.979622, 1, 0.01);
+}
+
 TEST_F(WaterPhotons, RunsAreBitIdentical) {
     const water::WaveField waves = patchP6();
     FloorSetup setup;

@@ -1,5 +1,6 @@
 #version 450 core
-// How many layers of a slot the passes after the deposit work on: two only where a photon met the second.
+// How many layers of a slot the passes after the deposit work on: two only where a photon met the second; the first pass
+// (caustic_spread.comp) none where all footprints were laid down in texels.
 #include "water/bindings.shared.h"
 
 layout(local_size_x = 1) in;
@@ -7,9 +8,10 @@ layout(local_size_x = 1) in;
 layout(std430, binding = SHOAL_STORAGE_WATER) readonly buffer Deposits { uint deposits[]; };
 layout(std430, binding = SHOAL_STORAGE_WATER + 1) writeonly buffer Commands { uint groups[]; };
 layout(std430, binding = SHOAL_STORAGE_WATER + 2) writeonly buffer Layers { uint secondUsed[]; };
-layout(location = 0) uniform ivec3 place;   // the word that tells whether the second layer is used; commands; slot
+layout(location = 0) uniform ivec3 place;   // of the words that tell whether the second layer, coarse cells are used; commands; slot
 
 void main() {
     secondUsed[place.z] = deposits[place.x];
-    for (int i = 0; i < place.y; ++i) groups[3 * i + 2] = deposits[place.x] != 0u ? 2u : 1u;
+    uint layers = deposits[place.x] != 0u ? 2u : 1u;
+    for (int i = 0; i < place.y; ++i) groups[3 * i + 2] = i > 0 || deposits[place.x + 1] != 0u ? layers : 0u;
 }

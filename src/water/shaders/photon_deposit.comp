@@ -7,7 +7,9 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-// Two layers of side x side texels, then a word that tells whether the second is used.
+// Two layers of side x side texels; two words that tell whether the second layer and whether coarse cells are used; two
+// layers of cells of 8 x 8 texels, two of 64 x 64: footprints too large for texels are laid down there and spread over
+// texels later (caustic_spread.comp). Cells begin at multiples of their size in the world.
 layout(std430, binding = SHOAL_STORAGE_WATER) buffer Deposits { uint deposits[]; };
 
 layout(location = 0) uniform int slot;
@@ -15,10 +17,13 @@ layout(location = 1) uniform vec4 lattice;   // first cell's x, z; cells along x
 layout(location = 2) uniform vec4 cell;      // m; texels a metre; units that a photon of flux 1 brings; side in texels
 // Of the square, texels from the world's 0; the most flux a photon brings, the most of it left over level water's.
 layout(location = 3) uniform vec4 corner;
+layout(location = 4) uniform ivec4 coarse;   // of cells of 8, of 64 texels: first word, cells a side
 
 const float kThinnest = 0.06;      // texels: narrower footprints are made this wide
 const float kLeastRun = 0.01;      // texels: edges run at least so far along x and z
-const float kLargest = 48.0;       // texels across, for a footprint
+// Texels (or cells) that a footprint is long, and wide, at most: longer ones take too many turns, and what is wide needs
+// no finer cells (and rounding shows in its areas).
+const float kLongest = 48.0, kWidest = 8.0;
 
 float awayFromZero(float x) { return x < 0.0 ? min(x, -kLeastRun) : max(x, kLeastRun); }
 
@@ -40,10 +45,14 @@ void main() {
     float left = min(photonLeft(p, slot, max(travel, 0.0)), corner.w);
     float amount = travel >= 0.0 && !wasted ? min(p.flux, corner.z) * left * cell.z : 0.0;
 
-    // Edges of the footprint in texels: not thinner, not larger than what can be laid down.
-    vec2 a = j.xy, b = j.zw;
-    float spread = max(abs(a.x) + abs(b.x), abs(a.y) + abs(b.y));
-    if (spread > kLargest) a *= kLargest / spread, b *= kLargest / spread;
+    // Edges of the footprint, in texels or in the cells that it is not too large for; not thinner than what can be laid
+    // down.
+    float spread = max(abs(j.x) + abs(j.z), abs(j.y) + abs(j.w));
+    float size = max(spread / kLongest, abs(j.x * j.w - j.y * j.z) / max(spread * kWidest, 1e-6));
+    int level = int(size > 1.0) + int(size > 8.0);
+    float shrink = level == 0 ? 1.0 : level == 1 ? 0.125 : 0.015625;
+    float side = level == 0 ? cell.w : float(level == 1 ? coarse.y : coarse.w);
+    vec2 a = j.xy * shrink, b = j.zw * shrink;
     bool aLonger = dot(a, a) > dot(b, b);
     vec2 longer = aLonger ? a : b;
     float lengthLonger = max(length(longer), 1e-6);
@@ -57,12 +66,11 @@ void main() {
     b = vec2(awayFromZero(b.x), awayFromZero(b.y));
 
     // Relative to the texel of the centre, whose number counts from the world's 0: the same wherever the square is.
-    vec2 texels = centre * cell.y, home = floor(texels);
+    vec2 texels = centre * (cell.y * shrink), home = floor(texels);
     vec2 v0 = texels - home - 0.5 * (a + b), v1 = v0 + a, v3 = v0 + b, v2 = v1 + b;
     vec2 lo = floor(min(min(v0, v1), min(v2, v3))), hi = ceil(max(max(v0, v1), max(v2, v3)));
-    vec2 origin = home - corner.xy;
-    lo = max(lo, -origin), hi = min(hi, vec2(cell.w) - origin);
-    float side = cell.w;
+    vec2 origin = home - floor(corner.xy * shrink);
+    lo = max(lo, -origin), hi = min(hi, vec2(side) - origin);
     if (amount <= 0.0 || !(lo.x < hi.x && lo.y < hi.y)) hi = lo;
     ivec2 first = ivec2(origin + lo), count = ivec2(hi - lo);
 
@@ -80,6 +88,7 @@ void main() {
     float laid = 0.0;
     uint laidUnits = 0u;
     int row = (layer * int(side) + first.y) * int(side) + first.x;
+    row += level == 0 ? 0 : level == 1 ? coarse.x : coarse.z;
     for (int y = 0; y < count.y; ++y) {
         float upperY = lo.y + float(y) + 1.0;
         vec4 high = vec4(edgeAt(v0, a, inverseRise.x, upperY), edgeAt(v3, a, inverseRise.x, upperY),
@@ -100,5 +109,7 @@ void main() {
         low = high;
         row += int(side);
     }
-    if (laidUnits > 0u && layer > 0) atomicOr(deposits[2 * int(side) * int(side)], 1u);
+    int flags = coarse.x - 2;
+    if (laidUnits > 0u && layer > 0) atomicOr(deposits[flags], 1u);
+    if (laidUnits > 0u && level > 0) atomicOr(deposits[flags + 1], 1u);
 }
