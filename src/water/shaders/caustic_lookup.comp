@@ -240,13 +240,17 @@ void main() {
     direct = lightSpace.slots[0].irradiance.rgb * (under ? beam : vec3(1.0)) * (value * max(facing, 0.0));
     if (sunSlots > 0) sunLeft = left;
 #else
-    int count = int(lightSpace.counts.x);
-    for (int group = 0, end = 0; group < count; group = end) {
+    // Slots of light that comes down stand before those of light thrown up: under water the first ones count, above it
+    // the others.
+    int count = int(lightSpace.counts.x), firstUp = 0;
+    for (int i = 0; i < count; ++i) firstUp += lightSpace.slots[i].flags.y > 0.5 ? 0 : 1;
+    bool reflected = !under;
+    int last = !there ? 0 : under ? firstUp : count;
+    for (int group = under ? 0 : firstUp, end = 0; group < last; group = end) {
         end = int(lightSpace.slots[group].rows.z);
-        bool reflected = lightSpace.slots[group].flags.y > 0.5;
         vec3 toLight = towardsLight(p, group);
         float facing = dot(normal, toLight), tilt = length(normal.xz) / max(facing, 0.05);
-        float left = there && facing > 0.0 && reflected != under ? 1.0 : 0.0;
+        float left = facing > 0.0 ? 1.0 : 0.0;
         Receiver r = Receiver(lightSpaceOf(p, group), p.y, tilt, pixelM, lightSpace.slots[group].mean.w);
         float value = slotsValue(r, group, end, vec4(0.0), left, behind);
         vec3 through = reflected ? vec3(1.0) : beam;
