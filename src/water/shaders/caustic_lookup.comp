@@ -32,7 +32,8 @@ layout(std430, binding = SHOAL_STORAGE_WATER + 1) writeonly buffer TileFlags { u
 #endif
 
 const float kSkyTransmittance = 0.934;   // of light from all of the sky through level water
-const float kFromBelow = 0.05;           // of downwelling light comes back from below
+const float kFloorAlbedo = 0.3;           // of the floor, as upwelling light takes it
+const float kBackscattered = 0.0183;      // of scattered light goes backwards [Petzold 1972]
 #ifdef FEW_SLOTS
 const int kMostCascades = 2;              // slots of one group
 #else
@@ -274,10 +275,16 @@ void main() {
     if (!inside) return;
     imageStore(directImage, pixel, vec4(direct, under ? 1.0 : 0.0));
 
-    // Smooth light from above: the sky's, and the sun's that left the sharp beam.
+    // Smooth light from above: the sky's, and the sun's that left the sharp beam. From below what of all of it the
+    // water sends back (deep water 0.33 b_b / a [Gordon et al. 1975]), and the floor, there and back.
     if (!ambientWanted) return;
     vec3 sky = waterBlock.skyIrradiance.rgb * kSkyTransmittance * exp(-waterBlock.diffuseAttenuation.rgb * depth);
     vec3 scattered = onLevel * max(exp(-waterBlock.sunDiffuseAttenuation.rgb * depth) - beam, vec3(0.0));
-    vec3 ambient = (sky + scattered) * (0.318309886 * mix(kFromBelow, 1.0, 0.5 + 0.5 * normal.y));
+    vec3 absorbed = max(waterBlock.beamAttenuation.rgb - waterBlock.beamScattering.rgb, vec3(1e-4));
+    vec3 deep = min(0.33 * kBackscattered * waterBlock.scattering.rgb / absorbed, vec3(kFloorAlbedo));
+    float toFloor = lightSpace.counts.x > 0.0 ? max(p.y - lightSpace.slots[0].reach.y, 0.0) : 1e3;
+    vec3 back = mix(deep, vec3(kFloorAlbedo), exp(-2.0 * waterBlock.diffuseAttenuation.rgb * toFloor));
+    vec3 upwelling = back * (sky + scattered + onLevel * beam);
+    vec3 ambient = mix(upwelling, sky + scattered, 0.5 + 0.5 * normal.y) * 0.318309886;
     imageStore(ambientImage, pixel, under ? vec4(ambient, 1.0) : vec4(0.0));
 }

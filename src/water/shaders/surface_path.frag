@@ -53,8 +53,8 @@ float toHeightOf(vec3 point, vec3 start, vec3 direction) {
 
 // What a bent ray meets: pixel (xy), metres from the start (z) and -1 in w where that is a guess. straight: where the
 // unbent ray would end.
-// Searched on g(t) = depth of the opaque surface less depth of the ray: outwards until g < 0, then between by secants and
-// halves in turn.
+// Searched on g(t) = depth of the opaque surface less depth of the ray: outwards until g < 0, then between by secants
+// and halves in turn.
 vec4 followBent(vec3 start, vec3 direction, vec2 ownPixel, vec3 straight, bool ask) {
     vec4 clip0 = clipFromWorld * vec4(start, 1.0), clip1 = clipFromWorld * vec4(direction, 0.0);
     float depth0 = -(viewFromWorld * vec4(start, 1.0)).z, depth1 = -(viewFromWorld * vec4(direction, 0.0)).z;
