@@ -137,7 +137,7 @@ CausticMaps::Sums CausticMaps::sumsFor(int fine) const {
     Sums sums;
     sums.fine = fine, sums.side = setup_.resolution * fine;
     sums.flags = 2 * sums.side * sums.side;
-    sums.words = sums.flags + 2;
+    sums.words = sums.flags + 1;
     for (int i = 0; i < 2; ++i) {
         // Cells of the world's own grid: one more than fit where the square does not begin at one.
         sums.sides[i] = sums.side / (i == 0 ? 8 : 64) + 1;

@@ -36,7 +36,7 @@ public:
     std::int64_t bytes() const;
 
 private:
-    // Sums a texel of the maps: `fine` x `fine`; two layers, two words that say whether the second layer and whether
+    // Sums a texel of the maps: `fine` x `fine`; two layers, a word that says whether the second layer and whether
     // the coarse sums hold anything, then those: for footprints too large for texels.
     struct Sums {
         int fine = 1, side = 0;

@@ -8,10 +8,12 @@ layout(local_size_x = 1) in;
 layout(std430, binding = SHOAL_STORAGE_WATER) readonly buffer Deposits { uint deposits[]; };
 layout(std430, binding = SHOAL_STORAGE_WATER + 1) writeonly buffer Commands { uint groups[]; };
 layout(std430, binding = SHOAL_STORAGE_WATER + 2) writeonly buffer Layers { uint secondUsed[]; };
-layout(location = 0) uniform ivec3 place;   // of the words that tell whether the second layer, coarse cells are used; commands; slot
+// The word that tells whether the second layer and coarse cells are used; commands; slot.
+layout(location = 0) uniform ivec3 place;
 
 void main() {
-    secondUsed[place.z] = deposits[place.x];
-    uint layers = deposits[place.x] != 0u ? 2u : 1u;
-    for (int i = 0; i < place.y; ++i) groups[3 * i + 2] = i > 0 || deposits[place.x + 1] != 0u ? layers : 0u;
+    uint used = deposits[place.x];
+    secondUsed[place.z] = used & 1u;
+    uint layers = 1u + (used & 1u);
+    for (int i = 0; i < place.y; ++i) groups[3 * i + 2] = i > 0 || used >= 2u ? layers : 0u;
 }

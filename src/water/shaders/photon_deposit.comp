@@ -7,7 +7,7 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-// Two layers of side x side texels; two words that tell whether the second layer and whether coarse cells are used; two
+// Two layers of side x side texels; a word whose bits tell whether the second layer and whether coarse cells are used; two
 // layers of cells of 8 x 8 texels, two of 64 x 64: footprints too large for texels are laid down there and spread over
 // texels later (caustic_spread.comp). Cells begin at multiples of their size in the world.
 layout(std430, binding = SHOAL_STORAGE_WATER) buffer Deposits { uint deposits[]; };
@@ -109,7 +109,6 @@ void main() {
         low = high;
         row += int(side);
     }
-    int flags = coarse.x - 2;
-    if (laidUnits > 0u && layer > 0) atomicOr(deposits[flags], 1u);
-    if (laidUnits > 0u && level > 0) atomicOr(deposits[flags + 1], 1u);
+    uint used = uint(layer) + (level > 0 ? 2u : 0u);
+    if (laidUnits > 0u && used > 0u) atomicOr(deposits[coarse.x - 1], used);
 }
