@@ -1,7 +1,8 @@
 #version 450 core
 // Blurs sums of photons by the disc of their light, some texels wide at most: rows into an image, then its columns
-// (variant ALONG_Z) into the maps. A texel of what lies `travel` under the surface gets the mean over a disc (an ellipse
-// under a low sun) whose size grows with travel. Its profile along an axis is taken as 1 - u^2, of the disc's variance.
+// (variant ALONG_Z) into the maps. A texel of what lies `travel` under the surface gets the mean over a disc (an
+// ellipse under a low sun) whose size grows with travel. Its profile along an axis is taken as 1 - u^2, of the disc's
+// variance.
 #include "water/light_space.io.glsl"
 
 layout(local_size_x = 16, local_size_y = 8) in;

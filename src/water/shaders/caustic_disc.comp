@@ -1,7 +1,7 @@
 #version 450 core
-// Blurs a slot's sharp map by a wide disc of its light: every texel of what lies `travel` under the surface gets the mean
-// over a disc (an ellipse under a low sun) whose size grows with travel, taken from the mip level where it is about a
-// texel wide.
+// Blurs a slot's sharp map by a wide disc of its light: every texel of what lies `travel` under the surface gets the
+// mean over a disc (an ellipse under a low sun) whose size grows with travel, taken from the mip level where it is
+// about a texel wide.
 #include "water/light_space.io.glsl"
 
 layout(local_size_x = 16, local_size_y = 8) in;

@@ -1,6 +1,6 @@
 #version 450 core
-// How many layers of a slot the passes after the deposit work on: two only where a photon met the second; the first pass
-// (caustic_spread.comp) none where all footprints were laid down in texels.
+// How many layers of a slot the passes after the deposit work on: two only where a photon met the second; the first
+// pass (caustic_spread.comp) none where all footprints were laid down in texels.
 #include "water/bindings.shared.h"
 
 layout(local_size_x = 1) in;

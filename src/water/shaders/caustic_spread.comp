@@ -1,6 +1,6 @@
 #version 450 core
-// Adds what was laid down in cells of 8 x 8 and of 64 x 64 texels to the sums of texels, bilinearly. Only where there is
-// any (caustic_layers.comp).
+// Adds what was laid down in cells of 8 x 8 and of 64 x 64 texels to the sums of texels, bilinearly. Only where there
+// is any (caustic_layers.comp).
 #include "water/bindings.shared.h"
 
 layout(local_size_x = 16, local_size_y = 8) in;

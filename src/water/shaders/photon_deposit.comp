@@ -7,9 +7,9 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-// Two layers of side x side texels; a word whose bits tell whether the second layer and whether coarse cells are used; two
-// layers of cells of 8 x 8 texels, two of 64 x 64: footprints too large for texels are laid down there and spread over
-// texels later (caustic_spread.comp). Cells begin at multiples of their size in the world.
+// Two layers of side x side texels; a word whose bits tell whether the second layer and whether coarse cells are used;
+// two layers of cells of 8 x 8 texels, two of 64 x 64: footprints too large for texels are laid down there and spread
+// over texels later (caustic_spread.comp). Cells begin at multiples of their size in the world.
 layout(std430, binding = SHOAL_STORAGE_WATER) buffer Deposits { uint deposits[]; };
 
 layout(location = 0) uniform int slot;
@@ -21,8 +21,8 @@ layout(location = 4) uniform ivec4 coarse;   // of cells of 8, of 64 texels: fir
 
 const float kThinnest = 0.06;      // texels: narrower footprints are made this wide
 const float kLeastRun = 0.01;      // texels: edges run at least so far along x and z
-// Texels (or cells) that a footprint is long, and wide, at most: longer ones take too many turns, and what is wide needs
-// no finer cells (and rounding shows in its areas).
+// Texels (or cells) that a footprint is long, and wide, at most: longer ones take too many turns, and what is wide
+// needs no finer cells (and rounding shows in its areas).
 const float kLongest = 48.0, kWidest = 8.0;
 
 float awayFromZero(float x) { return x < 0.0 ? min(x, -kLeastRun) : max(x, kLeastRun); }
