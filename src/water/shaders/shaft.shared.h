@@ -4,6 +4,7 @@
 
 #define SHOAL_SUN_SHAFT_SLOTS 3  // slots of the sun that shafts are traced for: the finest
 #define SHOAL_MAX_SHAFT_SLOTS 8
+#define SHOAL_SHAFT_OPEN_CELLS 8  // a side, of shaft_open.comp; a divisor of a slice's texels a side
 
 #ifdef __cplusplus
 #include <shoal/core/math.h>
@@ -28,7 +29,8 @@ SHOAL_SHAFT_BLOCK_BEGIN {
     vec4 rims[SHOAL_MAX_SHAFT_SLOTS];  // x: texels from the middle that all its light reaches, less y a metre of depth;
                                        // x is negative where there is no slot
     vec4 march;                        // x: steps, y: full pixels a small pixel's side, z, w: shift of the pattern
-    vec4 small;  // x: full pixels from the middle of a small pixel to that of the one marched for it
+    vec4 small;  // x: full pixels from the middle of a small pixel to that of the one marched for it; y: the finest
+                 // slot whose cells of shaft_open.comp are as wide as smooth light spreads
 }
 #ifndef __cplusplus
 shaftBlock

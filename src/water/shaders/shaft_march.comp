@@ -13,6 +13,7 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 // rgb: mean source, W/(m3 sr); a: seen length of the path, 0: there is none
 layout(binding = 0, rgba32f) uniform writeonly image2D sourceImage;
+layout(binding = SHOAL_UNIT_PASS + 1) uniform sampler2DArray openCells;   // shaft_open.comp
 
 const float kFarthest = 7.0;   // optical depths of the clearest channel that are marched: e^-7 is a thousandth
 const int kStretches = 4;      // of equal steps, each stretch twice as long as the one before
@@ -38,6 +39,21 @@ SlotLine slotLineOf(int j, vec2 s0, vec2 sPerM, float depth0, float depthPerM) {
     line.from = vec3(shaftTexelOf(s0, j) - 0.5 * shaftBlock.grid.x, rim.x - rim.y * depth0);
     line.perM = vec3(sPerM * shaftBlock.slots[j].z, -rim.y * depthPerM);
     return line;
+}
+
+// Share of the sun's beam that gets into the water above a place on the path, `t` metres along; 1 where no slot is.
+float openAt(SlotLine lines[SHOAL_SUN_SHAFT_SLOTS], float t) {
+    float side = shaftBlock.grid.x, open = 1.0;
+    for (int j = SHOAL_SUN_SHAFT_SLOTS - 1; j >= 0; --j) {
+        vec3 at = lines[j].from + lines[j].perM * t;
+        // No cell that the rim cuts.
+        float halfSide = 0.5 * side - side / float(SHOAL_SHAFT_OPEN_CELLS);
+        bool inside = max(abs(at.x), abs(at.y)) < at.z && float(j) >= shaftBlock.small.y;
+        vec2 place = clamp(at.xy, vec2(-halfSide), vec2(halfSide)) / side + 0.5;
+        float found = textureLod(openCells, vec3(place, float(j)), 0.0).x;
+        open = inside ? found : open;
+    }
+    return open;
 }
 
 void main() {
@@ -67,8 +83,11 @@ void main() {
     for (int j = 0; j < SHOAL_SUN_SHAFT_SLOTS; ++j) lines[j] = slotLineOf(j, s0, sPerM, depth0, -path.direction.y);
     float slices = shaftBlock.grid.y, middle = 0.5 * shaftBlock.grid.x + 0.5, rim = shaftBlock.grid.x + 1.0;
     vec3 random = fract(0.5 + (pattern + shaftBlock.march.w) * kEven);
+    float open = 0.0, weights = 0.0;
     for (int stretch = 0; stretch < kStretches; ++stretch) {
         vec3 taken = vec3(1.0) - pass;
+        float before = left.y;
+        open += openAt(lines, t + 0.5 * float(steps - 1) * stepM) * before, weights += before;
         for (int i = 0; i < steps; ++i) {
             // The finest slot that has all light of the place; where there is none, level water's.
             vec3 a = lines[0].from + lines[0].perM * t, b = lines[1].from + lines[1].perM * t;
@@ -94,7 +113,7 @@ void main() {
     vec3 ratio = steps > 0 ? sum / (vec3(1.0) - left) : vec3(0.0);
 
     vec3 light = levelWaterBeam(depth0, path.direction) * min(ratio, vec3(1000.0)) * decayOver(decay, path.lengthM);
-    light += veilingLight(depth0, path.direction, path.lengthM);
+    light += veilingLight(depth0, path.direction, path.lengthM, weights > 0.0 ? open / weights : 1.0);
 #ifdef LAMPS
     light += lampsInWater(path.start, path.direction, path.lengthM, jitter);
     light += lampsAbove(path.start, path.direction, path.lengthM, vec3(jitter, random.yz));

@@ -58,8 +58,9 @@ vec3 levelWaterBeam(float depth, vec3 direction) {
     return waterBlock.beamScattering.rgb * arriving * shaftPhase(-dot(waterBlock.sunRefracted.xyz, direction));
 }
 
-// W/(m2 sr) of light without direction: the sky's, and what the beam has lost but the water still carries down.
-vec3 veilingLight(float depth, vec3 direction, float lengthM) {
+// W/(m2 sr) of light without direction: the sky's, and what the beam has lost but the water still carries down; open:
+// the share of the beam that got into the water thereabouts.
+vec3 veilingLight(float depth, vec3 direction, float lengthM, float open) {
     if (lengthM <= 0.0) return vec3(0.0);
     vec3 beam = waterBlock.beamAttenuation.rgb, kd = waterBlock.diffuseAttenuation.rgb;
     vec3 kdSun = waterBlock.sunDiffuseAttenuation.rgb;
@@ -71,7 +72,7 @@ vec3 veilingLight(float depth, vec3 direction, float lengthM) {
     vec3 sharp = dimmedOver(beamDecay(direction.y), lengthM, beam * (depth / cosMean));
     // Where diffuse attenuation is the stronger one there is no such light at any depth.
     vec3 smoothed = mix(max(all - sharp, vec3(0.0)), vec3(0.0), greaterThanEqual(kdSun, beam / cosMean));
-    return waterBlock.beamScattering.rgb * (sky + level * smoothed) * (kInverse4Pi / kMeanCosine);
+    return waterBlock.beamScattering.rgb * (sky + level * (smoothed * open)) * (kInverse4Pi / kMeanCosine);
 }
 
 #endif

@@ -13,6 +13,7 @@ constexpr float kFirstScale = 0.5f;     // metres: down to here slices lie about
 constexpr float kLeastDeepest = 8;      // metres
 constexpr float kOpticalDepth = 7;      // of the clearest channel, below which no light is worth tracing
 constexpr float kMostLight = 16;        // shaft_photons.comp
+constexpr float kSpreadM = 1.5f;        // metres: smooth light evens out over this much at least
 constexpr float kWidestRim = 1.0f / 8;  // of a square
 
 // Slices of a slot keep a multiple of 8 texels a side, whichever number of photons is asked for.
@@ -79,6 +80,10 @@ ShaftPlan makeShaftPlan(const ShaftSetup& setup, const ShaftParams& params, cons
         block.rims[at] = {0.5f * float(lattice.side) - 1, rim / std::max(level - slot.bottom, 1.0f), 0, 0};
     };
     for (std::size_t i = 0; i < sun.size(); ++i) place(sun[i], i);
+    // Of the slots placed, the finest whose cells are wide enough; else the widest.
+    int widest = int(sun.size()) - 1, open = 0;
+    while (open < widest && block.slots[open].z * kSpreadM > float(lattice.side) / SHOAL_SHAFT_OPEN_CELLS) ++open;
+    block.small.y = float(open);
     for (std::size_t i = 0; i < lamps.size(); ++i) place(lamps[i], SHOAL_SUN_SHAFT_SLOTS + i);
     plan.side = lattice.side, plan.cells = lattice.side * lattice.perTexel, plan.sunSlots = int(sun.size()),
     plan.lampSlots = int(lamps.size());

@@ -66,9 +66,11 @@ struct Shafts::State {
     const gl::Program* march[2][2][3] = {};  // [Fournier-Forand][paths given][lamps: none, some, some with shadows]
     const gl::Program* upsample[2] = {};     // [paths given]
     const gl::Program* blur[2] = {};         // [axis]
+    const gl::Program* openCells = nullptr;
     gl::BlockBuffer<ShaftBlock> block;
     gl::BlockBuffer<WaterBlock> water;
     gl::Texture slices;            // R32UI array, see shaft_slices.io.glsl
+    gl::Texture open;              // R32F array, a layer a slot of the sun (shaft_open.comp)
     gl::Texture sources, blurred;  // RGBA32F, small
     ShaftPlan plan;
     std::int64_t photonCount = 0;
@@ -123,6 +125,7 @@ Result<void> Shafts::State::makePrograms() {
         photonProgram(false, i, {});
         marchProgram(false, i, 0);
     }
+    get(openCells, "water/shaft_open.comp", {});
     if (failed) return internalError(problem);
     return {};
 }
@@ -164,6 +167,14 @@ Result<Shafts> Shafts::create(gl::Device& device, const ShaftSetup& setup) {
     registerWaterShaders();
     auto state = std::make_unique<State>(device, setup);
     SHOAL_TRY(state->makePrograms());
+    gl::TextureDesc desc;
+    desc.target = GL_TEXTURE_2D_ARRAY;
+    desc.format = GL_R32F;
+    desc.width = desc.height = SHOAL_SHAFT_OPEN_CELLS;
+    desc.layers = SHOAL_SUN_SHAFT_SLOTS;
+    desc.label = "shafts, share of the sun";
+    state->open = gl::Texture::create(device, desc);
+    if (!state->open) return internalError("no memory for light shafts");
     state->block = gl::BlockBuffer<ShaftBlock>::create(device, "shafts");
     state->water = gl::BlockBuffer<WaterBlock>::create(device, "shafts' water");
     return Shafts(std::move(state));
@@ -210,6 +221,11 @@ void Shafts::render(const frame::Context& context, const ShaftParams& params, co
     if (fromSun) trace(*fromSun, 0, sunSlots);
     if (fromLamps) trace(*fromLamps, SHOAL_SUN_SHAFT_SLOTS, lampSlots);
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+    if (sunSlots == 0) return;
+    bindInput(SHOAL_UNIT_SHAFT_SLICES, s.slices);
+    gl::bindImage(0, s.open, GL_WRITE_ONLY);
+    s.openCells->dispatch(SHOAL_SHAFT_OPEN_CELLS, SHOAL_SHAFT_OPEN_CELLS, sunSlots);
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 
 void Shafts::march(const frame::Context& context, const ShaftParams& params, const Body& body, const BodyLights& lights,
@@ -233,7 +249,7 @@ void Shafts::march(const frame::Context& context, const ShaftParams& params, con
     const double sample = double(context.sampleIndex);
     s.plan.block.march = {float(std::clamp((params.steps + 3) / 4, 1, 256)), 1 / scale,
                           float(std::fmod(sample * 0.6180339887, 1)), float(std::fmod(sample * 512 * 17, 65536))};
-    s.plan.block.small = {marchedOffset(1 / scale), 0, 0, 0};
+    s.plan.block.small.x = marchedOffset(1 / scale);
     s.block.write(s.plan.block);
     s.block.bindUniform(SHOAL_BLOCK_WATER_PASS);
     s.water.write(makeWaterBlock(body, lights));
@@ -241,6 +257,7 @@ void Shafts::march(const frame::Context& context, const ShaftParams& params, con
     bindInput(SHOAL_UNIT_SHAFT_SLICES, s.slices);
     views.bind();
     bindInput(SHOAL_UNIT_PASS, viewDepth);
+    bindInput(SHOAL_UNIT_PASS + 1, s.open);
     if (bent) {
         bindInput(SHOAL_UNIT_WATER_SURFACE, paths.surfaceDepth);
         bindInput(SHOAL_UNIT_WATER_NORMAL, paths.surfaceNormal);
