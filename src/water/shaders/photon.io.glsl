@@ -1,7 +1,7 @@
 // One photon: a cell of the level plane, lit, followed through the surface of the water to what it meets. Light space
 // makes its way short and nearly straight down, and its footprint comes with it: the 2x2 Jacobian of its place in light
 // space by (x, z), exact at every height.
-//   Photon p = photonAt(xz, slot);                 p.flux 0: no light there
+//   Photon p = photonAt(xz, slot, c);              of a cell of c x c metres; p.flux 0: no light there
 //   float travel = photonTravel(p, slot, layer);   metres of height from the surface to what it meets; < 0: nothing
 //   vec2 s = photonPlace(p, slot, travel);         light space at ANY travel in between (0: at the surface)
 //   vec4 j = photonJacobian(p, slot, travel);      columns ds/dx (xy), ds/dz (zw)
@@ -28,6 +28,8 @@ struct Photon {
     float perTravel;        // metres of path a metre of travel
     float dimming;          // 1/m of travel, by the water
     float flux;             // a m2 of level plane, behind the surface, in units of the slot's irradiance
+    vec4 open;              // share of light that reaches the cell's corners (-x -z, +x -z, -x +z, +x +z) through the
+                            // air, linear between them: neighbours agree where they meet. Not in the flux.
     vec4 jacobianStart;     // of the place at one height by (x, z): start + travel * perTravel, times the lamp's scale
     vec4 jacobianPerTravel;
 };
@@ -85,8 +87,8 @@ vec2 driftChange(vec3 d, vec2 g, vec3 r, float slant, float cosIn, float cosOut,
     return side * (dr.xz - r.xz * (dr.y / r.y)) / r.y;
 }
 
-// xz: on the level plane, metres.
-Photon photonAt(vec2 xz, int slot) {
+// xz: middle of its cell of the level plane, cellM wide, metres.
+Photon photonAt(vec2 xz, int slot, float cellM) {
     Photon p;
     Wave wave = waveAt(xz);
     p.start = vec3(xz.x, lightSpace.slots[slot].reach.z + wave.h, xz.y);
@@ -112,8 +114,13 @@ Photon photonAt(vec2 xz, int slot) {
 #ifndef NO_WAVE_SHADOWS
     p.flux *= waveVisibility(p.start, d);
 #endif
+    p.open = vec4(1.0);
 #ifndef NO_AIR
-    p.flux *= airVisibility(p.start, slot);
+    for (int i = 0; i < 4; ++i) {
+        vec2 corner = (vec2(i & 1, i >> 1) - 0.5) * cellM;
+        p.open[i] = airVisibility(p.start + vec3(corner.x, dot(wave.slope, corner), corner.y), slot);
+    }
+    if (p.open == vec4(0.0)) p.flux = 0.0;
 #endif
 
     // The place at a height: start + drift * travel, where a slope also changes the travel to that height.

@@ -35,7 +35,7 @@ float edgeAt(vec2 start, vec2 edge, float inverseRise, float y) {
 void main() {
     ivec2 id = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(id, ivec2(lattice.zw)))) return;
-    Photon p = photonAt((lattice.xy + vec2(id) + 0.5) * cell.x, slot);
+    Photon p = photonAt((lattice.xy + vec2(id) + 0.5) * cell.x, slot, cell.x);
     int layer;
     float travel = photonTravel(p, slot, layer);
     vec2 centre = photonPlace(p, slot, travel);
@@ -87,6 +87,10 @@ void main() {
     vec4 along = vec4(alongA, -alongA, alongB, -alongB);
     float laid = 0.0;
     uint laidUnits = 0u;
+#ifndef NO_AIR
+    // Where a texel's middle lies between the footprint's corners.
+    mat2 withinFootprint = mat2(b.y, -a.y, -b.x, a.x) / det;
+#endif
     int row = (layer * int(side) + first.y) * int(side) + first.x;
     row += level == 0 ? 0 : level == 1 ? coarse.x : coarse.z;
     for (int y = 0; y < count.y; ++y) {
@@ -100,7 +104,13 @@ void main() {
             l = max(vec4(upperX) - low, vec4(0.0)), h = max(vec4(upperX) - high, vec4(0.0));
             float area = dot(along, (l - h) * (l + h));
             // What is rounded off here is laid down in the next texel.
-            laid += max(area - before, 0.0);
+            float share = max(area - before, 0.0);
+#ifndef NO_AIR
+            vec2 within = clamp(withinFootprint * (vec2(upperX, upperY) - 0.5 - v0), vec2(0.0), vec2(1.0));
+            vec2 between = mix(p.open.xz, p.open.yw, within.x);
+            share *= mix(between.x, between.y, within.y);
+#endif
+            laid += share;
             before = area;
             uint units = uint(laid + 0.5);
             if (units > laidUnits) atomicAdd(deposits[row + x], units - laidUnits);

@@ -65,10 +65,10 @@ void main() {
     int perTexel = int(shaftBlock.grid.z), side = int(shaftBlock.grid.x) * perTexel;
     ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(cell, ivec2(side)))) return;
-    float fraction = 1.0 / float(perTexel);
-    vec2 xz = shaftBlock.slots[i].xy + (vec2(cell) + 0.5) * (fraction / shaftBlock.slots[i].z);
+    float fraction = 1.0 / float(perTexel), cellM = fraction / shaftBlock.slots[i].z;
+    vec2 xz = shaftBlock.slots[i].xy + (vec2(cell) + 0.5) * cellM;
 
-    Photon p = photonAt(xz, slot);
+    Photon p = photonAt(xz, slot, cellM);
     float level = lightSpace.slots[slot].reach.z;
     // What is met at the very surface has no water before it.
     float deepest = level - p.start.y + shaftTravel(p);
@@ -78,7 +78,7 @@ void main() {
 #else
     float levelFluence = 1.0;
 #endif
-    float amount = p.flux * p.perTravel / max(levelFluence, 1e-6);
+    float amount = p.flux * dot(p.open, vec4(0.25)) * p.perTravel / max(levelFluence, 1e-6);
     vec3 direction = vec3(p.drift.x, -1.0, p.drift.y) / p.perTravel;
     float units = shaftBlock.units.x * fraction * fraction;
     float rounding = fract(0.7548777 * float(cell.x & 4095) + 0.5698403 * float(cell.y & 4095));
