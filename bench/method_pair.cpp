@@ -20,6 +20,8 @@ MethodTimes timesOf(const std::vector<gl::PassTime>& passes) {
         double* part = nullptr;
         if (name == "light depth")
             times.lightDepth += pass.timeMs;
+        else if (name == "mirrored views")
+            times.mirrored += pass.timeMs;
         else if (name == "paper compose" || name == "caustic lookup" || name == "shaft upsample")
             part = &times.toPixels;
         else if (begins(name, "caustic ") || begins(name, "paper caustics") || name == "paper water mask")
@@ -43,8 +45,8 @@ double median(const std::vector<MethodTimes>& times, double MethodTimes::*part) 
 
 MethodTimes medianOf(const std::vector<MethodTimes>& times) {
     MethodTimes result;
-    for (double MethodTimes::*part :
-         {&MethodTimes::lightDepth, &MethodTimes::caustics, &MethodTimes::godrays, &MethodTimes::toPixels})
+    for (double MethodTimes::*part : {&MethodTimes::lightDepth, &MethodTimes::mirrored, &MethodTimes::caustics,
+                                      &MethodTimes::godrays, &MethodTimes::toPixels})
         result.*part = median(times, part);
     std::map<std::string, std::vector<double>> byName;
     for (const MethodTimes& one : times)

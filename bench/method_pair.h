@@ -17,6 +17,7 @@ enum class Method { shoal, paper };
 // Milliseconds of one frame.
 struct MethodTimes {
     double lightDepth = 0;  // drawing the scene from the light: the same work for any method, quoted apart
+    double mirrored = 0;    // what the surface mirrors and bends, drawn and lit: for the surface, quoted apart
     double caustics = 0;    // photons, intersection, deposits or points, filters
     double godrays = 0;     // photons, slices or lines, march, filters
     double toPixels = 0;    // both brought to the picture's size

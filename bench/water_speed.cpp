@@ -84,9 +84,11 @@ Result<std::vector<Row>> speedup(const Settings& settings, const Work& work) {
     pair.setSize(work.width, work.height);
     SHOAL_TRY_ASSIGN(const std::string check, sameWork(pair, work.photons, work.godrayPhotons));
     SHOAL_TRY_ASSIGN(const MethodPair::Both both, pair.inTurns(settings.repetitions));
-    note("  %s shoal, ms (%s): %s; light depth apart %.1f", work.id, gl::FrameTimer::method(pair.device()),
-         passText(both.shoal).c_str(), both.shoal.lightDepth);
-    note("  %s paper, ms: %s; light depth apart %.1f", work.id, passText(both.paper).c_str(), both.paper.lightDepth);
+    note("  %s shoal, ms (%s): %s; light depth apart %.1f, mirrored views %.1f", work.id,
+         gl::FrameTimer::method(pair.device()), passText(both.shoal).c_str(), both.shoal.lightDepth,
+         both.shoal.mirrored);
+    note("  %s paper, ms: %s; light depth apart %.1f, mirrored views %.1f", work.id, passText(both.paper).c_str(),
+         both.paper.lightDepth, both.paper.mirrored);
     note("  %s check: %s", work.id, check.c_str());
     char text[400];
     std::snprintf(text, sizeof text,

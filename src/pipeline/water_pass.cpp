@@ -101,7 +101,9 @@ Result<void> WaterPass::resizeMirror(const light::View& view, MirrorTargets& mir
 
 void WaterPass::drawMirror(const frame::Context& context, const WaterScene& scene,
                            const water::Surface::MirrorView& view, MirrorTargets& to) {
+    const gl::PassScope pass(context.timer, "mirrored views");
     frame::Context mirrored = context;
+    mirrored.timer = nullptr;  // one pass of the frame: its own are not the picture's
     mirrored.view = mirrored.previousView = view.view;
     mirrored.jitterPx = {};
     mirrored.clipPlane = view.clipPlane;
