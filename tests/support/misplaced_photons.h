@@ -40,12 +40,12 @@ layout(location = 0) uniform vec4 grid;   // corner x, z, cell, count
 void main() {
     ivec2 id = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(id, ivec2(grid.w)))) return;
-    Photon p = photonAt(grid.xy + (vec2(id) + 0.5) * grid.z, 0);
+    Photon p = photonAt(grid.xy + (vec2(id) + 0.5) * grid.z, 0, grid.z);
     int layer;
     float travel = photonTravel(p, 0, layer);
     int at = 2 * (id.y * int(grid.w) + id.x);
     ends[at] = vec4(p.start, travel);
-    ends[at + 1] = vec4(p.drift, p.flux, float(layer));
+    ends[at + 1] = vec4(p.drift, p.flux * dot(p.open, vec4(0.25)), float(layer));
 }
 )";
 
