@@ -53,31 +53,19 @@ vec2 airTexelOf(vec3 p, int slot) {
     return lightTexelOf(s, slot);
 }
 
-// Share of light that reaches the surface at p; 0 where something above the water is in its way. At a corner of texels
-// light passes where it does in all four of them, so that none slips in between a hull's side and the texels that show
-// the hull; linear between corners, or a shadow's edge would be stairs.
+// 1 where light reaches the surface at p, 0 where something above the water is in its way.
 float airVisibility(vec3 p, int slot) {
-    if (lightSpace.slots[slot].flags.w == 0.0) return 1.0;
     const float kGapM = 0.01;  // what is this little above the surface is the waterline itself
     int size = int(lightSpace.counts.y);
-    vec2 place = clamp(airTexelOf(p, slot), vec2(1.0), vec2(float(size) - 2.0));
-    vec2 within = fract(place);
-    ivec2 home = ivec2(place);
-    vec4 height = lightSpace.slots[slot].airHeight;
-    float least = p.y + kGapM;
-    vec3 rows[3];   // of three texels, 1 where light passes
-    for (int i = 0; i < 3; ++i) {
-        // Seen from above, whichever way light goes on: rows run against z.
-        ivec3 at = ivec3(home.x - 1, size - home.y - i, slot);
-        for (int j = 0; j < 3; ++j) {
-            float depth = texelFetch(airDepth, at + ivec3(j, 0, 0), 0).x;
-            rows[i][j] = depth > 0.0 && heightOfDepth(depth, height) > least ? 0.0 : 1.0;
-        }
-    }
-    vec3 near = min(rows[0], rows[1]), far = min(rows[1], rows[2]);
-    vec4 corners = vec4(min(near.xy, near.yz), min(far.xy, far.yz));
-    vec2 across = mix(corners.xz, corners.yw, within.x);
-    return mix(across.x, across.y, within.y);
+    // The four texels around: light must not slip in between a hull's side and the texels that show the hull.
+    ivec2 low = clamp(ivec2(floor(airTexelOf(p, slot) - 0.5)), ivec2(0), ivec2(size - 2));
+    // Seen from above, whichever way light goes on: rows run against z.
+    ivec3 at = ivec3(low.x, size - 2 - low.y, slot);
+    vec2 near = vec2(texelFetch(airDepth, at, 0).x, texelFetch(airDepth, at + ivec3(1, 0, 0), 0).x);
+    vec2 far = vec2(texelFetch(airDepth, at + ivec3(0, 1, 0), 0).x, texelFetch(airDepth, at + ivec3(1, 1, 0), 0).x);
+    float depth = max(max(near.x, near.y), max(far.x, far.y));
+    bool blocked = depth > 0.0 && heightOfDepth(depth, lightSpace.slots[slot].airHeight) > p.y + kGapM;
+    return blocked ? 0.0 : 1.0;
 }
 
 #endif

@@ -116,7 +116,8 @@ Photon photonAt(vec2 xz, int slot, float cellM) {
 #endif
     p.open = vec4(1.0);
 #ifndef NO_AIR
-    for (int i = 0; i < 4; ++i) {
+    int corners = lightSpace.slots[slot].flags.w > 0.0 ? 4 : 0;
+    for (int i = 0; i < corners; ++i) {
         vec2 corner = (vec2(i & 1, i >> 1) - 0.5) * cellM;
         p.open[i] = airVisibility(p.start + vec3(corner.x, dot(wave.slope, corner), corner.y), slot);
     }
