@@ -24,8 +24,8 @@ SHOAL_SURFACE_BLOCK_BEGIN {
     vec4 depthRow[3];    // dot with (p, 1): view depth of world point p there
     vec4 mirrorSize[3];  // x, y: pixels; z: 1 where there is such a view
     vec4 bentEye;        // xyz: eye of view 2, world
-    vec4 grid;              // x: cell of the finest level m, y, z: x and z of the middle, w: 1 where inscatter is given
-    vec4 look;              // x: variance of slope of what no wave shows, y: 1 for foam, z: depth where foam begins m
+    vec4 grid;           // x: cell of the finest level m, y, z: x and z of the middle, w: 1 where inscatter is given
+    vec4 look;           // x: variance of slope of what no wave shows, y: 1 for foam, z: depth where foam begins m
 }
 #ifndef __cplusplus
 surfaceBlock
