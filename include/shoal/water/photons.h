@@ -60,8 +60,8 @@ public:
 
     // RG32F array, two layers a slot (2 slot + layer). r: irradiance on a level plane in units of the light's
     // irradiance on a plane facing it (lamps: of that right below them on the level), over what level water leaves of
-    // the channel that is dimmed least there. g: world y of what has it (not kept for a second layer that is dark). A map is as wide as high;
-    // above it, in rows from its width on, lie its mips from left to right.
+    // the channel that is dimmed least there. g: world y of what has it (not kept for a second layer that is dark). A
+    // map is as wide as high; above it, in rows from its width on, lie its mips from left to right.
     gl::TextureView maps() const;
     frame::Stats stats() const;
 

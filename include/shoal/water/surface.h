@@ -24,7 +24,8 @@ template <class P, class V>
 requires std::is_same_v<std::remove_const_t<P>, SurfaceParams>
 void visit(P& p, V&& v) {
     v(p.reflections, Field{"reflections", "", -1e30, 1e30, "whether things are mirrored, not the sky alone"});
-    v(p.reflectionScale, Field{"reflectionScale", "", 0.1, 1, "size of the mirrored picture to the picture's; what lies in water has twice that"});
+    v(p.reflectionScale, Field{"reflectionScale", "", 0.1, 1,
+                               "size of the mirrored picture to the picture's; what lies in water has twice that"});
     v(p.roughness, Field{"roughness", "", 0, 0.5, "slope of ripples too small for the waves (rms)"});
     v(p.foam, Field{"foam", "", -1e30, 1e30, "a line of foam where the water is shallow"});
     v(p.foamDepth, Field{"foamDepth", "m", 0.01, 10, "depth of water where foam begins"});
@@ -39,8 +40,8 @@ struct WaterPaths {
     gl::TextureView surfaceNormal;  // RG16 octahedral, world, upwards
     // RGBA16F: xy from the pixel to the place in the picture (of its size) where the opaque surface at the end of the
     // path is seen (not 0 where the ray is bent), z: metres in water, w: 1 where the path begins at the eye, down to -1
-    // where a bent ray ends beyond the picture's border or behind something: xy and z are guesses there. w: -2 where the
-    // view along bent rays shows what is met, and the picture was not searched: xy is 0.
+    // where a bent ray ends beyond the picture's border or behind something: xy and z are guesses there. w: -2 where
+    // the view along bent rays shows what is met, and the picture was not searched: xy is 0.
     gl::TextureView path;
 };
 
