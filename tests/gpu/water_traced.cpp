@@ -195,5 +195,53 @@ TEST_F(WaterTraced, ReflectedLightOnASlantedCeiling) {
     EXPECT_GT(errorFrom(reflectedOnto(-0.1, found.width)).first, 0.2);
 }
 
+// Murky water seen from within, a board of 60 m x 60 m three metres above it with its middle at x.
+std::string roofScene(double roofX) {
+    return R"(environment = "none"
+[render]
+width = 64
+height = 36
+antialiasing = "none"
+[camera]
+position = [0, -2, 0]
+target = [10, -2, 0]
+fovDeg = 40
+[sun]
+toSun = [0, 1, 0]
+irradiance = [1, 1, 1]
+[[shape]]
+shape = "plane"
+width = 200
+depth = 200
+position = [0, -8, 0]
+[[shape]]
+shape = "box"
+size = [60, 0.2, 60]
+position = [)" +
+           std::to_string(roofX) + R"(, 3, 0]
+[water]
+surfaceVisible = false
+absorption = [0.05, 0.05, 0.05]
+scattering = [0.4, 0.4, 0.4]
+forwardFraction = 0
+waves = { kind = "flat" }
+)";
+}
+
+// Smooth light in water is sunlight that the water has spread: under a roof there is none of it either.
+TEST_F(WaterTraced, SmoothLightIsDarkUnderARoof) {
+    const auto meanOf = [](const Image& image) {
+        double sum = 0;
+        for (int y = 0; y < image.height; ++y)
+            for (int x = 0; x < image.width; ++x) sum += double(image.at(x, y)[1]);
+        return sum / (double(image.width) * image.height);
+    };
+    const double open = meanOf(draw(roofScene(1000), "inscatter"));
+    ASSERT_GT(open, 0);
+    EXPECT_LT(meanOf(draw(roofScene(0), "inscatter")), 0.02 * open);
+    // The control: a roof beside the picture leaves nearly all of it.
+    EXPECT_GT(meanOf(draw(roofScene(-60), "inscatter")), 0.7 * open);
+}
+
 }  // namespace
 }  // namespace shoal::pipeline
