@@ -48,6 +48,7 @@ void showHelp(const FieldInfo& info) {
 std::string formatFor(double value, double span) {
     const double size = span < kUnbounded ? span : std::abs(value);
     if (size < 1e-9) return "%.1f";
+    if (std::abs(value) >= 1e6 || (value != 0 && std::abs(value) < 1e-3 * size)) return "%.3g";
     return size >= 1000 ? "%.0f" : size >= 100 ? "%.1f" : size >= 5 ? "%.2f" : size >= 0.05 ? "%.3f" : "%.5f";
 }
 
