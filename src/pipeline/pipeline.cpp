@@ -463,6 +463,10 @@ frame::Stats Pipeline::stats() const {
                         {"instances", g.instances},
                         {"skinned vertices", g.skinnedVertices}};
     }
+    if (state_->loaded && state_->loaded->water) {
+        const frame::Stats water = state_->loaded->water->stats();
+        stats.counts.insert(stats.counts.end(), water.counts.begin(), water.counts.end());
+    }
     return stats;
 }
 

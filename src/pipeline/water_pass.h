@@ -44,6 +44,7 @@ public:
     gl::TextureView inscatter() const { return inscatter_.view(); }
     gl::TextureView transmittance() { return water_.surface().transmittance(); }
     gl::TextureView waterDepth() { return water_.surface().waterDepth(); }
+    frame::Stats stats() const { return water_.stats(); }
 
 private:
     struct MirrorTargets {

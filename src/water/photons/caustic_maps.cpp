@@ -149,7 +149,7 @@ CausticMaps::Sums CausticMaps::sumsFor(int fine) const {
 
 std::int64_t CausticMaps::make(const frame::Context& context, const PhotonJob& job) {
     const double disc = double(job.slot.discRadius) / double(job.slot.texel);
-    const EmissionLattice lattice = emissionLattice(job.slot, setup_.resolution, job.photons);
+    const EmissionLattice lattice = emissionLattice(job.slot, setup_.resolution, job.photons, job.body);
     const Sums sums = sumsFor(fineFor(disc, double(lattice.cellM) / double(job.slot.texel)));
     deposit(context, job, sums, lattice);
     resolve(context, job, sums, disc);
@@ -162,8 +162,8 @@ void CausticMaps::deposit(const frame::Context& context, const PhotonJob& job, c
     const LightSlot& slot = job.slot;
     const double texelsPerM = sums.fine / double(slot.texel), cellTexels = double(lattice.cellM) * texelsPerM;
     // All of the slot's flux in one texel still fits, with room for the rounding of each photon.
-    const double most =
-        double(lattice.countX) * double(lattice.countZ) * (cellTexels * cellTexels * job.mostFlux * job.mostLeft);
+    const double most = std::max(double(lattice.countX) * double(lattice.countZ), 1.0) *
+                        (cellTexels * cellTexels * job.mostFlux * job.mostLeft);
     const double units = std::exp2(std::floor(std::log2(0.98 * 4294967296.0 / most)));
 
     const GLuint zero = 0;
@@ -180,7 +180,7 @@ void CausticMaps::deposit(const frame::Context& context, const PhotonJob& job, c
         glProgramUniform4i(p->name(), 4, sums.first[0], sums.sides[0], sums.first[1], sums.sides[1]);
     glProgramUniform3i(spread_->name(), 0, sums.side, cornerX & 63, cornerZ & 63);
     sums_.bindStorage(SHOAL_STORAGE_WATER);
-    program.dispatch(lattice.countX, lattice.countZ);
+    if (lattice.countX > 0 && lattice.countZ > 0) program.dispatch(lattice.countX, lattice.countZ);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     for (const gl::Program* p : {resolve_[0], resolve_[1], blur_[0], round_}) p->set(1, float(1 / units));
 }

@@ -19,6 +19,7 @@ struct PhotonJob {
     LightSlot slot;
     int photons = 0;
     PhotonVariant variant = PhotonVariant::lamp;
+    BodyParams body;
     double mostFlux = 4;  // of a photon, in units of the slot's irradiance a m2 of level plane
     double mostLeft = 1;  // of a photon, over what level water leaves of one
 };

@@ -1,8 +1,10 @@
 // Where photons start: a lattice over the level plane, anchored in the world.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
+#include <shoal/water/body.h>
 #include <shoal/water/light_views.h>
 
 namespace shoal::water {
@@ -12,18 +14,22 @@ namespace shoal::water {
 struct EmissionLattice {
     float cellM = 0;
     int firstX = 0, firstZ = 0;
-    int countX = 0, countZ = 0;
+    int countX = 0, countZ = 0;  // 0: none of them lies in the water
 };
 
-// About `photons` cells over the square of `resolution` texels a side and its margin.
-inline EmissionLattice emissionLattice(const LightSlot& slot, int resolution, int photons) {
+// About `photons` cells over the square of `resolution` texels a side and its margin; of those the ones that touch the
+// water's area.
+inline EmissionLattice emissionLattice(const LightSlot& slot, int resolution, int photons, const BodyParams& body) {
     EmissionLattice e;
     const double side = double(slot.texel) * resolution + 2 * double(slot.margin);
     e.cellM = float(side / std::sqrt(double(photons)));
-    const auto first = [&](float origin) { return int(std::floor((double(origin) - slot.margin) / e.cellM)); };
-    const auto last = [&](float origin) { return int(std::ceil((double(origin) - slot.margin + side) / e.cellM)); };
-    e.firstX = first(slot.origin.x), e.firstZ = first(slot.origin.y);
-    e.countX = last(slot.origin.x) - e.firstX, e.countZ = last(slot.origin.y) - e.firstZ;
+    const auto cells = [&](float origin, float areaMin, float areaMax, int& first, int& count) {
+        const double from = double(origin) - double(slot.margin);
+        first = int(std::floor(std::max(from, double(areaMin)) / e.cellM));
+        count = std::max(int(std::ceil(std::min(from + side, double(areaMax)) / e.cellM)) - first, 0);
+    };
+    cells(slot.origin.x, body.areaMin.x, body.areaMax.x, e.firstX, e.countX);
+    cells(slot.origin.y, body.areaMin.y, body.areaMax.y, e.firstZ, e.countZ);
     return e;
 }
 

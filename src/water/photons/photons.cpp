@@ -177,7 +177,7 @@ void Photons::render(const frame::Context& context, const PhotonParams& params, 
     for (int i = 0; i < int(slots.size()) && i < s.setup.maxSlots; ++i) {
         const LightSlot& slot = slots[std::size_t(i)];
         s.sunHasSlot = s.sunHasSlot || (slot.light < 0 && !slot.reflected);
-        PhotonJob job{i, slot, photonsOf(slot, slots, params.photons), variantOf(slot, body, lights, air)};
+        PhotonJob job{i, slot, photonsOf(slot, slots, params.photons), variantOf(slot, body, lights, air), body.params};
         if (slot.light < 0) job.mostFlux = std::min(job.mostFlux, std::sqrt(1 + slope * slope));
         job.mostLeft = mostLeft(slot, body);
         s.photonCount += s.maps->make(context, job);

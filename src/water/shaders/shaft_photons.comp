@@ -12,6 +12,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(location = 0) uniform int i;      // slot of the block
 layout(location = 1) uniform int slot;   // the same among LightViews::slots()
+layout(location = 2) uniform ivec4 cells;   // the first that touches the water's area, the first beyond
 
 const float kMostParts = 2.0;   // of a photon's footprint along an axis
 // Times what level water lets through: no photon counts for more. All photons of a slot in one texel fill 32 bits.
@@ -62,9 +63,9 @@ float shaftTravel(Photon p) {
 }
 
 void main() {
-    int perTexel = int(shaftBlock.grid.z), side = int(shaftBlock.grid.x) * perTexel;
-    ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(cell, ivec2(side)))) return;
+    int perTexel = int(shaftBlock.grid.z);
+    ivec2 cell = cells.xy + ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(cell, cells.zw))) return;
     float fraction = 1.0 / float(perTexel), cellM = fraction / shaftBlock.slots[i].z;
     vec2 xz = shaftBlock.slots[i].xy + (vec2(cell) + 0.5) * cellM;
 

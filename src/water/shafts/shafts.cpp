@@ -53,6 +53,20 @@ float marchedOffset(float pixels) {
     return std::abs(pixels - whole) < 1e-3f && std::fmod(whole, 2.0f) == 0 ? 0.5f : 0.0f;
 }
 
+// Cells of slot i along an axis that touch the water's area.
+struct CellRange {
+    int first = 0, end = 0;
+    int count() const { return end - first; }
+};
+CellRange cellsOf(const ShaftPlan& plan, float origin, int i, float areaMin, float areaMax) {
+    const double cellM = double(plan.side) / (double(plan.block.slots[i].z) * plan.cells), most = plan.cells;
+    const auto at = [&](float x) { return (double(x) - double(origin)) / cellM; };
+    CellRange range;
+    range.first = int(std::clamp(std::floor(at(areaMin)), 0.0, most));
+    range.end = std::max(int(std::clamp(std::ceil(at(areaMax)), 0.0, most)), range.first);
+    return range;
+}
+
 }  // namespace
 
 struct Shafts::State {
@@ -210,12 +224,18 @@ void Shafts::render(const frame::Context& context, const ShaftParams& params, co
     body.gpuWaves->bind();
     views.bind();
     gl::bindImage(0, s.slices, GL_READ_WRITE);
-    s.photonCount = std::int64_t(s.plan.cells) * s.plan.cells * (sunSlots + lampSlots);
     const auto trace = [&](const gl::Program& program, int first, int count) {
         for (int i = first; i < first + count; ++i) {
             program.set(0, i);
             program.set(1, int(s.plan.block.slots[i].w));
-            program.dispatch(s.plan.cells, s.plan.cells);
+            const CellRange x =
+                cellsOf(s.plan, s.plan.block.slots[i].x, i, body.params.areaMin.x, body.params.areaMax.x);
+            const CellRange z =
+                cellsOf(s.plan, s.plan.block.slots[i].y, i, body.params.areaMin.y, body.params.areaMax.y);
+            if (x.count() == 0 || z.count() == 0) continue;
+            glProgramUniform4i(program.name(), 2, x.first, z.first, x.end, z.end);
+            program.dispatch(x.count(), z.count());
+            s.photonCount += std::int64_t(x.count()) * z.count();
         }
     };
     if (fromSun) trace(*fromSun, 0, sunSlots);
