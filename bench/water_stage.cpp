@@ -21,11 +21,7 @@ Result<std::string> checksFolder() {
 
 Result<WaterStage> WaterStage::create(const Settings& settings) {
     WaterStage stage;
-    gl::DeviceOptions options;
-    options.device = settings.device;
-    options.log = stderrSink();
-    SHOAL_TRY_ASSIGN(stage.device_, gl::Device::create(options));
-    SHOAL_TRY_ASSIGN(stage.pipeline_, pipeline::Pipeline::create(*stage.device_));
+    SHOAL_TRY_ASSIGN(stage.stage_, makeStage(settings.device));
     return stage;
 }
 
@@ -41,13 +37,13 @@ Result<void> WaterStage::load(const std::string& scene, const Overrides& overrid
     SHOAL_TRY_ASSIGN(scene::Content content, scene::loadContent(read));
     if (change) change(content);
     request_ = pipeline::requestFor(read.render);
-    return pipeline_->setScene(read, std::move(content));
+    return stage_.pipeline->setScene(read, std::move(content));
 }
 
 Result<Image> WaterStage::draw(const std::string& aov) {
-    pipeline_->setAovs(std::vector<std::string>{aov});
-    SHOAL_TRY(pipeline_->render(request_));
-    SHOAL_TRY_ASSIGN(std::vector<Layer> layers, pipeline_->readAovs());
+    stage_.pipeline->setAovs(std::vector<std::string>{aov});
+    SHOAL_TRY(stage_.pipeline->render(request_));
+    SHOAL_TRY_ASSIGN(std::vector<Layer> layers, stage_.pipeline->readAovs());
     return std::move(layers[0].image);
 }
 

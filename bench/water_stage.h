@@ -2,7 +2,6 @@
 #pragma once
 
 #include <functional>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -11,6 +10,7 @@
 #include <shoal/pipeline/pipeline.h>
 #include <shoal/pipeline/water.h>
 
+#include "bench/frame_row.h"
 #include "bench/harness.h"
 
 namespace shoal::bench {
@@ -30,13 +30,12 @@ public:
     Result<Image> draw(const std::string& aov);
     // The same seen by another camera.
     Result<Image> draw(const std::string& aov, const light::Camera& camera);
-    pipeline::Pipeline& pipeline() { return *pipeline_; }
-    gl::Device& device() { return *device_; }
+    pipeline::Pipeline& pipeline() { return *stage_.pipeline; }
+    gl::Device& device() { return *stage_.device; }
     pipeline::FrameRequest request() const { return request_; }
 
 private:
-    std::unique_ptr<gl::Device> device_;
-    std::unique_ptr<pipeline::Pipeline> pipeline_;
+    Stage stage_;
     pipeline::FrameRequest request_;
 };
 

@@ -140,6 +140,17 @@ TEST_F(WaterSurface, AbsorptionAlongTheBentPath) {
     }
 }
 
+// Unit direction through the middle of a pixel, row 0 on top.
+Vec3 pixelRay(const light::View& view, int x, int y) {
+    const Vec3 clip{2 * (float(x) + 0.5f) / float(view.width) - 1, 1 - 2 * (float(y) + 0.5f) / float(view.height), 1};
+    return normalize(transformDirection(view.worldFromView, transformPoint(view.viewFromClip, clip)));
+}
+
+// A unit direction downwards, behind level water.
+Vec3 bentRay(Vec3 d) {
+    return {d.x / float(kIndex), -std::sqrt(1 - (1 - d.y * d.y) / float(kIndex * kIndex)), d.z / float(kIndex)};
+}
+
 // Where the floor is seen through level water, pixel by pixel.
 TEST_F(WaterSurface, FloorAppearsWhereSnellPutsIt) {
     auto stage = test::WaterStage::create(device(), 0);
@@ -156,13 +167,9 @@ TEST_F(WaterSurface, FloorAppearsWhereSnellPutsIt) {
     double worst = 0;
     for (int y = 0; y < height; y += 3)
         for (int x = 0; x < width; x += 3) {
-            const Vec3 clip{2 * (float(x) + 0.5f) / float(width) - 1, 1 - 2 * (float(y) + 0.5f) / float(height), 1};
-            const Vec3 d = normalize(transformDirection(view.worldFromView, transformPoint(view.viewFromClip, clip)));
+            const Vec3 d = pixelRay(view, x, y);
             if (d.y > -0.05f) continue;
-            const Vec3 start = eye + d * (-eye.y / d.y);
-            const Vec3 bent{d.x / float(kIndex), -std::sqrt(1 - (1 - d.y * d.y) / float(kIndex * kIndex)),
-                            d.z / float(kIndex)};
-            const Vec3 hit = start + bent * (-2 / bent.y);
+            const Vec3 bent = bentRay(d), hit = eye + d * (-eye.y / d.y) + bent * (-2 / bent.y);
             const Vec3 seen = transformPoint(view.clipFromWorld(), hit);
             const double px = 0.5 * (double(seen.x) + 1) * width, py = 0.5 * (1 - double(seen.y)) * height;
             if (px < 1 || px > width - 1 || py < 1 || py > height - 1) {
@@ -199,13 +206,9 @@ TEST_F(WaterSurface, FloorBeyondThePictureIsSeen) {
     int on = 0, off = 0, beyond = 0;
     for (int y = 0; y < height; y += 3)
         for (int x = 0; x < width; x += 3) {
-            const Vec3 clip{2 * (float(x) + 0.5f) / float(width) - 1, 1 - 2 * (float(y) + 0.5f) / float(height), 1};
-            const Vec3 d = normalize(transformDirection(view.worldFromView, transformPoint(view.viewFromClip, clip)));
+            const Vec3 d = pixelRay(view, x, y);
             if (d.y > -0.1f) continue;
-            const Vec3 start = eye + d * (-eye.y / d.y);
-            const Vec3 bent{d.x / float(kIndex), -std::sqrt(1 - (1 - d.y * d.y) / float(kIndex * kIndex)),
-                            d.z / float(kIndex)};
-            const Vec3 hit = start + bent * (-2 / bent.y);
+            const Vec3 bent = bentRay(d), hit = eye + d * (-eye.y / d.y) + bent * (-2 / bent.y);
             const float inwards = std::min({hit.x - lo.x, hi.x - hit.x, hit.z - lo.y, hi.y - hit.z});
             if (std::abs(inwards) < 0.02f * length(hit - eye)) continue;  // its rim
             const bool inside = inwards > 0;

@@ -3,27 +3,16 @@
 
 #include <shoal/pipeline/pipeline.h>
 
-#include "support/gl_device.h"
+#include "support/pipeline_test.h"
 
 namespace shoal::pipeline {
 namespace {
 
-class PipelineRequest : public test::GlTest {
+class PipelineRequest : public test::PipelineTest {
 protected:
     void SetUp() override {
-        GlTest::SetUp();
-        auto made = Pipeline::create(device());
-        ASSERT_TRUE(made) << made.error().message;
-        pipeline_ = *std::move(made);
-        const auto scene = scene::parseScene("[[shape]]\nkind = \"box\"\n", "box.toml");
-        ASSERT_TRUE(scene) << scene.error().message;
-        auto content = scene::loadContent(*scene);
-        ASSERT_TRUE(content) << content.error().message;
-        ASSERT_TRUE(pipeline_->setScene(*scene, *std::move(content)));
-    }
-    void TearDown() override {
-        pipeline_.reset();  // GlTest then looks for objects that were left
-        GlTest::TearDown();
+        PipelineTest::SetUp();
+        setScene("[[shape]]\nkind = \"box\"\n");
     }
     void expectRefused(const FrameRequest& request, const std::string& mention) {
         const auto drawn = pipeline_->render(request);
@@ -31,7 +20,6 @@ protected:
         EXPECT_EQ(drawn.error().kind, ErrorKind::badInput);
         EXPECT_NE(drawn.error().message.find(mention), std::string::npos) << drawn.error().message;
     }
-    std::unique_ptr<Pipeline> pipeline_;
 };
 
 TEST_F(PipelineRequest, OutOfRangeIsRefused) {

@@ -9,32 +9,18 @@
 #include <shoal/pipeline/pipeline.h>
 #include <shoal/pipeline/water.h>
 
-#include "support/gl_device.h"
+#include "support/pipeline_test.h"
 
 namespace shoal::pipeline {
 namespace {
 
-class WaterTraced : public test::GlTest {
+class WaterTraced : public test::PipelineTest {
 protected:
-    void SetUp() override {
-        GlTest::SetUp();
-        auto made = Pipeline::create(device());
-        ASSERT_TRUE(made) << made.error().message;
-        pipeline_ = *std::move(made);
-    }
-    void TearDown() override {
-        pipeline_.reset();  // GlTest then looks for objects that were left
-        GlTest::TearDown();
-    }
     // One AOV of a scene file's text, row 0 on top.
     Image draw(const std::string& text, const std::string& aov) {
-        const auto scene = scene::parseScene(text, "test.toml");
-        EXPECT_TRUE(scene) << scene.error().message;
-        auto content = scene::loadContent(*scene);
-        EXPECT_TRUE(content) << content.error().message;
-        EXPECT_TRUE(pipeline_->setScene(*scene, *std::move(content)));
+        setScene(text);
         pipeline_->setAovs(std::vector<std::string>{aov});
-        const auto drawn = pipeline_->render(requestFor(scene->render));
+        const auto drawn = pipeline_->render(requestFor(pipeline_->scene().render));
         EXPECT_TRUE(drawn) << drawn.error().message;
         auto layers = pipeline_->readAovs();
         EXPECT_TRUE(layers);
@@ -59,7 +45,6 @@ protected:
         options.rays = rays, options.steps = steps;
         return water::referenceInscatter(referenceScene(content, 0), body, lights, pipeline_->view(), options).value();
     }
-    std::unique_ptr<Pipeline> pipeline_;
 };
 
 // Root mean square difference of channel 1 over the mean of `exact`, and the ratio of the means.

@@ -309,7 +309,7 @@ frame::Stats Shafts::stats() const {
     const State& s = *state_;
     frame::Stats stats;
     const auto texels = [](const gl::Texture& t) { return std::int64_t(t.width()) * t.height() * t.view().layers; };
-    stats.bytes = 4 * texels(s.slices) + 16 * (texels(s.sources) + texels(s.blurred));
+    stats.bytes = 4 * (texels(s.slices) + texels(s.open)) + 16 * (texels(s.sources) + texels(s.blurred));
     stats.counts = {{"shaft photons", s.photonCount}};
     return stats;
 }
