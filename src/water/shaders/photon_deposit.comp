@@ -23,7 +23,7 @@ const float kThinnest = 0.06;      // texels: narrower footprints are made this 
 const float kLeastRun = 0.01;      // texels: edges run at least so far along x and z
 // Texels (or cells) that a footprint is long, and wide, at most: longer ones take too many turns, and what is wide
 // needs no finer cells (and rounding shows in its areas).
-const float kLongest = 48.0, kWidest = 8.0;
+const float kLongest = 48.0, kWidest = 16.0;
 
 float awayFromZero(float x) { return x < 0.0 ? min(x, -kLeastRun) : max(x, kLeastRun); }
 
