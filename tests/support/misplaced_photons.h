@@ -40,7 +40,7 @@ layout(location = 0) uniform vec4 grid;   // corner x, z, cell, count
 void main() {
     ivec2 id = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(id, ivec2(grid.w)))) return;
-    Photon p = photonAt(grid.xy + (vec2(id) + 0.5) * grid.z, 0, grid.z);
+    Photon p = photonAt(grid.xy + (vec2(id) + 0.5) * grid.z, 0, grid.z, true);
     int layer;
     float travel = photonTravel(p, 0, layer);
     int at = 2 * (id.y * int(grid.w) + id.x);

@@ -92,7 +92,9 @@ Result<CausticMaps> CausticMaps::create(gl::Device& device, const PhotonSetup& s
                                 {}};
     for (std::size_t i = 0; i < std::size(variants); ++i) {
         SHOAL_TRY_ASSIGN(m.deposit_[i], get("water/photon_deposit.comp", variants[i], "photon deposit"));
+        SHOAL_TRY_ASSIGN(m.depositSplit_[i], get("water/photon_split.comp", variants[i], "photon split"));
     }
+    SHOAL_TRY_ASSIGN(m.split_, SplitPhotons::create(device, setup));
     for (int i = 0; i < 2; ++i) {
         const Defines sharp = i ? Defines{{"SHARP", ""}} : Defines{}, along = i ? Defines{{"ALONG_Z", ""}} : Defines{};
         SHOAL_TRY_ASSIGN(m.resolve_[i], get("water/caustic_resolve.comp", sharp, "caustic resolve"));
@@ -147,6 +149,16 @@ CausticMaps::Sums CausticMaps::sumsFor(int fine) const {
     return sums;
 }
 
+void CausticMaps::prepare(const frame::Context& context, std::span<const PhotonJob> jobs) {
+    const gl::PassScope pass(context.timer, "caustic photons");
+    std::vector<SplitPhotons::Job> parts;
+    for (const PhotonJob& job : jobs) {
+        const EmissionLattice lattice = emissionLattice(job.slot, setup_.resolution, job.photons, job.body);
+        parts.push_back({job.slot, lattice.cellM, job.airShiftM});
+    }
+    split_.measure(parts);
+}
+
 std::int64_t CausticMaps::make(const frame::Context& context, const PhotonJob& job) {
     const double disc = double(job.slot.discRadius) / double(job.slot.texel);
     const EmissionLattice lattice = emissionLattice(job.slot, setup_.resolution, job.photons, job.body);
@@ -171,16 +183,22 @@ void CausticMaps::deposit(const frame::Context& context, const PhotonJob& job, c
                               GL_UNSIGNED_INT, &zero);
     const auto corner = [&](float origin) { return int(std::floor(double(origin) * texelsPerM + 0.5)); };
     const int cornerX = corner(slot.origin.x), cornerZ = corner(slot.origin.y);
-    const gl::Program& program = *deposit_[std::size_t(job.variant)];
-    program.set(0, job.index);
-    program.set(1, Vec4{float(lattice.firstX), float(lattice.firstZ), float(lattice.countX), float(lattice.countZ)});
-    program.set(2, Vec4{lattice.cellM, float(texelsPerM), float(units * cellTexels * cellTexels), float(sums.side)});
-    program.set(3, Vec4{float(cornerX), float(cornerZ), float(job.mostFlux), float(job.mostLeft)});
-    for (const gl::Program* p : {&program, spread_})
+    const gl::Program &whole = *deposit_[std::size_t(job.variant)], &split = *depositSplit_[std::size_t(job.variant)];
+    for (const gl::Program* p : {&whole, &split}) {
+        p->set(0, job.index);
+        p->set(1, Vec4{float(lattice.firstX), float(lattice.firstZ), float(lattice.countX), float(lattice.countZ)});
+        p->set(2, Vec4{lattice.cellM, float(texelsPerM), float(units * cellTexels * cellTexels), float(sums.side)});
+        p->set(3, Vec4{float(cornerX), float(cornerZ), float(job.mostFlux), float(job.mostLeft)});
+    }
+    for (const gl::Program* p : {&whole, &split, spread_})
         glProgramUniform4i(p->name(), 4, sums.first[0], sums.sides[0], sums.first[1], sums.sides[1]);
     glProgramUniform3i(spread_->name(), 0, sums.side, cornerX & 63, cornerZ & 63);
-    sums_.bindStorage(SHOAL_STORAGE_WATER);
-    if (lattice.countX > 0 && lattice.countZ > 0) program.dispatch(lattice.countX, lattice.countZ);
+    if (lattice.countX > 0 && lattice.countZ > 0) {
+        split_.begin(std::int64_t(lattice.countX) * lattice.countZ);
+        sums_.bindStorage(SHOAL_STORAGE_WATER);
+        whole.dispatch(lattice.countX, lattice.countZ);
+        split_.lay(split);
+    }
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     for (const gl::Program* p : {resolve_[0], resolve_[1], blur_[0], round_}) p->set(1, float(1 / units));
 }
@@ -251,7 +269,7 @@ void CausticMaps::addMips(Passes& passes, bool sharp, int firstLayer, int side, 
 }
 
 std::int64_t CausticMaps::bytes() const {
-    std::int64_t bytes = std::int64_t(sums_.bytes());
+    std::int64_t bytes = std::int64_t(sums_.bytes()) + split_.bytes();
     for (const gl::Texture* texture : {&maps_, &sharp_, &maps_})  // two numbers a texel of the maps
         bytes += std::int64_t(sizeof(float)) * texture->width() * texture->height() * texture->view().layers;
     return bytes;

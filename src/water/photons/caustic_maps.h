@@ -1,12 +1,15 @@
 // Makes the maps of caustics: a slot's photons laid down as sums of integers, blurred by the light's disc, with mips.
 #pragma once
 
+#include <span>
+
 #include <shoal/gl/device.h>
 #include <shoal/gl/objects.h>
 #include <shoal/gl/program.h>
 #include <shoal/water/photons.h>
 
 #include "water/photons/emission.h"
+#include "water/photons/split_photons.h"
 
 namespace shoal::water {
 
@@ -20,14 +23,17 @@ struct PhotonJob {
     int photons = 0;
     PhotonVariant variant = PhotonVariant::lamp;
     BodyParams body;
-    double mostFlux = 4;  // of a photon, in units of the slot's irradiance a m2 of level plane
-    double mostLeft = 1;  // of a photon, over what level water leaves of one
+    double mostFlux = 4;   // of a photon, in units of the slot's irradiance a m2 of level plane
+    double mostLeft = 1;   // of a photon, over what level water leaves of one
+    double airShiftM = 0;  // how far waves shift at most where its light comes through the air
 };
 
 class CausticMaps {
 public:
     static Result<CausticMaps> create(gl::Device& device, const PhotonSetup& setup);
 
+    // Of all slots of a frame, before make. Bound before: light space.
+    void prepare(const frame::Context& context, std::span<const PhotonJob> jobs);
     // Bound before: blocks of the water, its waves and light space. Returns how many photons there were.
     std::int64_t make(const frame::Context& context, const PhotonJob& job);
 
@@ -54,6 +60,8 @@ private:
 
     PhotonSetup setup_;
     const gl::Program* deposit_[std::size_t(PhotonVariant::count)] = {};
+    const gl::Program* depositSplit_[std::size_t(PhotonVariant::count)] = {};
+    SplitPhotons split_;
     const gl::Program *resolve_[2] = {}, *mips_[2] = {};  // into maps, into the sharp map
     const gl::Program* blur_[2] = {};                     // along x, along z
     const gl::Program *round_ = nullptr, *disc_ = nullptr, *layers_ = nullptr, *spread_ = nullptr;

@@ -91,6 +91,17 @@ int photonsOf(const LightSlot& slot, std::span<const LightSlot> slots, int photo
     return std::max(int(double(photons) * share), 64);
 }
 
+// Metres that waves shift at most where the slot's light comes through the air.
+double airShift(const LightSlot& slot, int resolution, const Body& body, const BodyLights& lights) {
+    const double wave = body.waves ? double(body.waves->bounds().height) : 0;
+    if (slot.light < 0) {
+        const Vec3 toSun = normalize(lights.sun->toSun);
+        return wave * double(std::hypot(toSun.x, toSun.z)) / std::max(double(toSun.y), 1e-6);
+    }
+    const double height = double(lights.punctual[std::size_t(slot.light)].position.y) - double(body.params.level);
+    return wave * double(slot.texel) * resolution / std::max(height, 1e-3);
+}
+
 PhotonVariant variantOf(const LightSlot& slot, const Body& body, const BodyLights& lights, bool air) {
     if (slot.light >= 0) return PhotonVariant::lamp;
     const Vec3 toSun = normalize(lights.sun->toSun);
@@ -174,14 +185,18 @@ void Photons::render(const frame::Context& context, const PhotonParams& params, 
     if (!s.traced) return;
     const double slope = body.waves ? body.waves->bounds().slope : 0;
     const bool air = views.airDrawn();
+    std::vector<PhotonJob> jobs;
     for (int i = 0; i < int(slots.size()) && i < s.setup.maxSlots; ++i) {
         const LightSlot& slot = slots[std::size_t(i)];
         s.sunHasSlot = s.sunHasSlot || (slot.light < 0 && !slot.reflected);
         PhotonJob job{i, slot, photonsOf(slot, slots, params.photons), variantOf(slot, body, lights, air), body.params};
         if (slot.light < 0) job.mostFlux = std::min(job.mostFlux, std::sqrt(1 + slope * slope));
         job.mostLeft = mostLeft(slot, body);
-        s.photonCount += s.maps->make(context, job);
+        job.airShiftM = airShift(slot, s.setup.resolution, body, lights);
+        jobs.push_back(job);
     }
+    s.maps->prepare(context, jobs);
+    for (const PhotonJob& job : jobs) s.photonCount += s.maps->make(context, job);
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 

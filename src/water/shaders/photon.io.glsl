@@ -1,8 +1,9 @@
 // One photon: a cell of the level plane, lit, followed through the surface of the water to what it meets. Light space
 // makes its way short and nearly straight down, and its footprint comes with it: the 2x2 Jacobian of its place in light
 // space by (x, z), exact at every height.
-//   Photon p = photonAt(xz, slot, c);              of a cell of c x c metres; p.flux 0: no light there
+//   Photon p = photonAt(xz, slot, c, air);         of a cell of c x c metres; p.flux 0: no light there
 //   float travel = photonTravel(p, slot, layer);   metres of height from the surface to what it meets; < 0: nothing
+//   photonTravelFrom, photonPlaceFrom: the same of another ray of its cell
 //   vec2 s = photonPlace(p, slot, travel);         light space at ANY travel in between (0: at the surface)
 //   vec4 j = photonJacobian(p, slot, travel);      columns ds/dx (xy), ds/dz (zw)
 //   float e = p.flux * photonLeft(p, slot, travel);   flux a m2 of level plane, in units of the slot's irradiance, over
@@ -88,7 +89,8 @@ vec2 driftChange(vec3 d, vec2 g, vec3 r, float slant, float cosIn, float cosOut,
 }
 
 // xz: middle of its cell of the level plane, cellM wide, metres.
-Photon photonAt(vec2 xz, int slot, float cellM) {
+// air: whether something above the water may be in its light's way.
+Photon photonAt(vec2 xz, int slot, float cellM, bool air) {
     Photon p;
     Wave wave = waveAt(xz);
     p.start = vec3(xz.x, lightSpace.slots[slot].reach.z + wave.h, xz.y);
@@ -116,7 +118,7 @@ Photon photonAt(vec2 xz, int slot, float cellM) {
 #endif
     p.open = vec4(1.0);
 #ifndef NO_AIR
-    int corners = lightSpace.slots[slot].flags.w > 0.0 ? 4 : 0;
+    int corners = air && lightSpace.slots[slot].flags.w > 0.0 ? 4 : 0;
     for (int i = 0; i < corners; ++i) {
         vec2 corner = (vec2(i & 1, i >> 1) - 0.5) * cellM;
         p.open[i] = airVisibility(p.start + vec3(corner.x, dot(wave.slope, corner), corner.y), slot);
@@ -169,11 +171,26 @@ vec2 photonPlace(Photon p, int slot, float travel) {
     return p.start.xz - mean.xy * above + (p.drift - mean.xy) * travel;
 }
 
+vec4 photonJacobian(Photon p, int slot, float travel) {
+    vec4 j = p.jacobianStart + p.jacobianPerTravel * travel;
+#ifndef NO_LAMPS
+    vec4 source = lightSpace.slots[slot].source;
+    if (source.w > 0.5) j *= lampScale(photonHeight(p, slot, travel), lightSpace.slots[slot].reach.z, source.y);
+#endif
+    return j;
+}
+
+// The same of the ray that starts `from` (x, z, m) the photon's own, within its cell.
+vec2 photonPlaceFrom(Photon p, vec2 from, int slot, float travel) {
+    vec4 j = photonJacobian(p, slot, travel);
+    return photonPlace(p, slot, travel) + j.xy * from.x + j.zw * from.y;
+}
+
 // Metres of travel from the surface to what the photon meets, layer of the depth maps that it lies in; -1: nothing.
 // Light space keeps the way short: where the mean direction's depth is looked up at the photon's own place, few steps
 // find the place whose depth is its own. Where they do not, the photon passes behind an edge: it meets what lies
 // farthest from the light there.
-float photonTravel(Photon p, int slot, out int layer) {
+float photonTravelFrom(Photon p, vec2 from, int slot, out int layer) {
     const float kSamePlace = 0.5;   // texels: nearer places look up one height
     // Counts that the compiler does not know: it would unroll the loops, and llvmpipe leaves only real ones early.
     int steps = int(lightSpace.counts.z), passes = int(lightSpace.counts.w);
@@ -188,7 +205,7 @@ float photonTravel(Photon p, int slot, out int layer) {
     bool found = false;
     for (int pass = 0; pass < passes && !found; ++pass) {
         travel = 0.0;
-        vec2 here = photonPlace(p, slot, 0.0) * place.w;
+        vec2 here = photonPlaceFrom(p, from, slot, 0.0) * place.w;
         for (int i = 0; i < steps && !found; ++i) {
             // Beyond the rim goes on what is at the rim.
             ivec2 texel = clamp(ivec2(floor(here)) - corner, ivec2(0), ivec2(size - 1));
@@ -200,7 +217,7 @@ float photonTravel(Photon p, int slot, out int layer) {
                 if (behind > 0.0) layer = 1, depth = behind;
             }
             float next = depth > 0.0 ? max(side * (heightOfDepth(depth, height) - p.start.y), 0.0) : reach;
-            vec2 there = photonPlace(p, slot, next) * place.w;
+            vec2 there = photonPlaceFrom(p, from, slot, next) * place.w;
             found = depth > 0.0 && dot(there - here, there - here) < kSamePlace * kSamePlace;
             travel = next;
             here = there;
@@ -209,13 +226,6 @@ float photonTravel(Photon p, int slot, out int layer) {
     return found ? travel : -1.0;
 }
 
-vec4 photonJacobian(Photon p, int slot, float travel) {
-    vec4 j = p.jacobianStart + p.jacobianPerTravel * travel;
-#ifndef NO_LAMPS
-    vec4 source = lightSpace.slots[slot].source;
-    if (source.w > 0.5) j *= lampScale(photonHeight(p, slot, travel), lightSpace.slots[slot].reach.z, source.y);
-#endif
-    return j;
-}
+float photonTravel(Photon p, int slot, out int layer) { return photonTravelFrom(p, vec2(0.0), slot, layer); }
 
 #endif

@@ -69,7 +69,7 @@ void main() {
     float fraction = 1.0 / float(perTexel), cellM = fraction / shaftBlock.slots[i].z;
     vec2 xz = shaftBlock.slots[i].xy + (vec2(cell) + 0.5) * cellM;
 
-    Photon p = photonAt(xz, slot, cellM);
+    Photon p = photonAt(xz, slot, cellM, true);
     float level = lightSpace.slots[slot].reach.z;
     // What is met at the very surface has no water before it.
     float deepest = level - p.start.y + shaftTravel(p);
