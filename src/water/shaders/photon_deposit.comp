@@ -17,15 +17,17 @@ vec2 slid(Photon p, float from, float to) {
 #endif
 }
 
-// Whether the photon's light is parted: rays from its corners meet what lies elsewhere, by more than a texel, or in the
-// other layer.
+// Whether the photon's light is parted: rays from its corners meet what lies in the other layer, or elsewhere by more than
+// a texel and a good part of its footprint.
 bool parted(Photon p, float travel, int layer) {
-    const float kApart = 1.0;   // texels
+    const float kApart = 1.0, kApartOfIts = 0.25;   // texels, of the footprint's longer edge
     // Where all that is near its way is in one place for it, nothing can part it.
     float reach = lightSpace.slots[slot].reach.w, end = travel < 0.0 ? reach : travel;
     float relief = reliefAt(photonPlace(p, slot, 0.5 * end)).x;
+    vec4 j = photonJacobian(p, slot, end) * (kApartOfIts * cell.x * lightSpace.slots[slot].place.w);
+    float least2 = max(max(dot(j.xy, j.xy), dot(j.zw, j.zw)), kApart * kApart);
     vec2 apart = slid(p, end, end + relief);
-    int corners = dot(apart, apart) > kApart * kApart ? 4 : 0;
+    int corners = dot(apart, apart) > least2 ? 4 : 0;
     float least = end, most = end;
     bool layers = false;
     for (int i = 0; i < corners; ++i) {
@@ -36,7 +38,7 @@ bool parted(Photon p, float travel, int layer) {
         layers = layers || other != layer;
     }
     apart = slid(p, least, most);
-    return p.flux > 0.0 && (layers || dot(apart, apart) > kApart * kApart);
+    return p.flux > 0.0 && (layers || dot(apart, apart) > least2);
 }
 
 void main() {

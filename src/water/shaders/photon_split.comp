@@ -9,8 +9,8 @@
 
 layout(local_size_x = 64) in;
 
-const int kFewestParts = 2, kMostParts = 8;   // along x and z
-const float kPartTexels = 1.0;                // texels of sums that a part is wide, about
+const int kFewestParts = 2, kMostParts = 5;   // along x and z
+const float kPartTexels = 2.0;                // texels of sums that a part is wide, about
 
 void part(Photon p) {
     vec4 far = photonJacobian(p, slot, lightSpace.slots[slot].reach.w) * (cell.x * cell.y);
