@@ -69,7 +69,7 @@ void layDown(vec2 centre, vec4 j, int layer, float amount, vec4 open, float heig
     // Columns left of the square are gone through, so that each row begins with nothing on its left.
     lo.y = max(lo.y, -origin.y), hi = min(hi, vec2(side) - origin);
     int hidden = int(max(-origin.x - lo.x, 0.0));
-    if (amount <= 0.0 || !(lo.x < hi.x && lo.y < hi.y)) hi = lo;
+    if (amount <= 0.0 || !(max(lo.x, -origin.x) < hi.x && lo.y < hi.y)) hi = lo;
     ivec2 first = ivec2(origin + lo), count = ivec2(hi - lo);
 
     // Edges along a from v0 and v3, along b from v0 and v1. In a row an edge from x0 to x1 has left of X the area

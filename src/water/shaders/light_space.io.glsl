@@ -60,10 +60,9 @@ float airVisibility(vec3 p, int slot) {
     // The four texels around: light must not slip in between a hull's side and the texels that show the hull.
     ivec2 low = clamp(ivec2(floor(airTexelOf(p, slot) - 0.5)), ivec2(0), ivec2(size - 2));
     // Seen from above, whichever way light goes on: rows run against z.
-    ivec3 at = ivec3(low.x, size - 2 - low.y, slot);
-    vec2 near = vec2(texelFetch(airDepth, at, 0).x, texelFetch(airDepth, at + ivec3(1, 0, 0), 0).x);
-    vec2 far = vec2(texelFetch(airDepth, at + ivec3(0, 1, 0), 0).x, texelFetch(airDepth, at + ivec3(1, 1, 0), 0).x);
-    float depth = max(max(near.x, near.y), max(far.x, far.y));
+    vec2 middle = vec2(low.x + 1, size - 1 - low.y) / float(size);
+    vec4 around = textureGather(airDepth, vec3(middle, float(slot)));
+    float depth = max(max(around.x, around.y), max(around.z, around.w));
     bool blocked = depth > 0.0 && heightOfDepth(depth, lightSpace.slots[slot].airHeight) > p.y + kGapM;
     return blocked ? 0.0 : 1.0;
 }
