@@ -149,14 +149,17 @@ CausticMaps::Sums CausticMaps::sumsFor(int fine) const {
     return sums;
 }
 
-void CausticMaps::prepare(const frame::Context& context, std::span<const PhotonJob> jobs) {
+void CausticMaps::prepare(const frame::Context& context, std::span<const PhotonJob> jobs, int photons) {
     const gl::PassScope pass(context.timer, "caustic photons");
-    std::vector<SplitPhotons::Job> parts;
-    for (const PhotonJob& job : jobs) {
+    std::array<SplitPhotons::Job, SHOAL_MAX_LIGHT_SLOTS> parts;
+    for (std::size_t i = 0; i < jobs.size(); ++i) {
+        const PhotonJob& job = jobs[i];
         const EmissionLattice lattice = emissionLattice(job.slot, setup_.resolution, job.photons, job.body);
-        parts.push_back({job.slot, lattice.cellM, job.airShiftM});
+        parts[i] = {job.slot, lattice.cellM, job.airShiftM};
     }
-    split_.measure(parts);
+    // A lattice has one cell more a side where its square begins within one.
+    const auto side = std::int64_t(std::ceil(std::sqrt(double(photons)))) + 2;
+    split_.measure(std::span(parts).first(jobs.size()), side * side);
 }
 
 std::int64_t CausticMaps::make(const frame::Context& context, const PhotonJob& job) {
@@ -194,7 +197,7 @@ void CausticMaps::deposit(const frame::Context& context, const PhotonJob& job, c
         glProgramUniform4i(p->name(), 4, sums.first[0], sums.sides[0], sums.first[1], sums.sides[1]);
     glProgramUniform3i(spread_->name(), 0, sums.side, cornerX & 63, cornerZ & 63);
     if (lattice.countX > 0 && lattice.countZ > 0) {
-        split_.begin(std::int64_t(lattice.countX) * lattice.countZ);
+        split_.begin();
         sums_.bindStorage(SHOAL_STORAGE_WATER);
         whole.dispatch(lattice.countX, lattice.countZ);
         split_.lay(split);

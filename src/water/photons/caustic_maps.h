@@ -32,8 +32,8 @@ class CausticMaps {
 public:
     static Result<CausticMaps> create(gl::Device& device, const PhotonSetup& setup);
 
-    // Of all slots of a frame, before make. Bound before: light space.
-    void prepare(const frame::Context& context, std::span<const PhotonJob> jobs);
+    // Of all slots of a frame, before make; none has more than `photons`. Bound before: light space.
+    void prepare(const frame::Context& context, std::span<const PhotonJob> jobs, int photons);
     // Bound before: blocks of the water, its waves and light space. Returns how many photons there were.
     std::int64_t make(const frame::Context& context, const PhotonJob& job);
 

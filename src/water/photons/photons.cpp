@@ -31,6 +31,7 @@ struct Photons::State {
     gl::BlockBuffer<WaterBlock> waterBlock;
     gl::BlockBuffer<CausticBlock> causticBlock;
     gl::BlockBuffer<LightSpaceBlock> noSlots;  // of method none: light goes on as through level water
+    std::vector<PhotonJob> jobs;               // of this frame
     bool sunHasSlot = false, traced = false;
     std::int64_t photonCount = 0;
 };
@@ -40,7 +41,8 @@ namespace {
 using State = Photons::State;
 
 constexpr double kReflectedShare = 0.125;
-constexpr float kBlends = 2;  // maps that a lookup blends at most
+constexpr int kFewestPhotons = 64;  // of a slot
+constexpr float kBlends = 2;        // maps that a lookup blends at most
 
 // A photon counts for no more than this times what level water leaves of one at the same place: only waves under a low
 // sun exceed it, where e^-6 of the light is left.
@@ -88,7 +90,7 @@ int cascadesOf(const LightSlot& slot, std::span<const LightSlot> slots) {
 // A light's photons are shared by its cascades; what the surface reflects is fainter.
 int photonsOf(const LightSlot& slot, std::span<const LightSlot> slots, int photons) {
     const double share = (slot.reflected ? kReflectedShare : 1) / cascadesOf(slot, slots);
-    return std::max(int(double(photons) * share), 64);
+    return std::max(int(double(photons) * share), kFewestPhotons);
 }
 
 // Metres that waves shift at most where the slot's light comes through the air.
@@ -185,7 +187,7 @@ void Photons::render(const frame::Context& context, const PhotonParams& params, 
     if (!s.traced) return;
     const double slope = body.waves ? body.waves->bounds().slope : 0;
     const bool air = views.airDrawn();
-    std::vector<PhotonJob> jobs;
+    s.jobs.clear();
     for (int i = 0; i < int(slots.size()) && i < s.setup.maxSlots; ++i) {
         const LightSlot& slot = slots[std::size_t(i)];
         s.sunHasSlot = s.sunHasSlot || (slot.light < 0 && !slot.reflected);
@@ -193,10 +195,10 @@ void Photons::render(const frame::Context& context, const PhotonParams& params, 
         if (slot.light < 0) job.mostFlux = std::min(job.mostFlux, std::sqrt(1 + slope * slope));
         job.mostLeft = mostLeft(slot, body);
         job.airShiftM = airShift(slot, s.setup.resolution, body, lights);
-        jobs.push_back(job);
+        s.jobs.push_back(job);
     }
-    s.maps->prepare(context, jobs);
-    for (const PhotonJob& job : jobs) s.photonCount += s.maps->make(context, job);
+    s.maps->prepare(context, s.jobs, std::max(params.photons, kFewestPhotons));
+    for (const PhotonJob& job : s.jobs) s.photonCount += s.maps->make(context, job);
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 

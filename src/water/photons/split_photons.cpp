@@ -38,7 +38,9 @@ Result<SplitPhotons> SplitPhotons::create(gl::Device& device, const PhotonSetup&
     return s;
 }
 
-void SplitPhotons::measure(std::span<const Job> jobs) {
+void SplitPhotons::measure(std::span<const Job> jobs, std::int64_t cells) {
+    const std::size_t bytes = sizeof kNone + sizeof(std::uint32_t) * std::size_t(cells);
+    if (list_.bytes() < bytes) list_ = gl::Buffer::create(*device_, bytes, "photons to be parted");
     std::array<GLint, 2 * SHOAL_MAX_LIGHT_SLOTS> widths{};
     for (std::size_t i = 0; i < jobs.size(); ++i) {
         const LightSlot& slot = jobs[i].slot;
@@ -60,9 +62,7 @@ void SplitPhotons::measure(std::span<const Job> jobs) {
     }
 }
 
-void SplitPhotons::begin(std::int64_t photons) {
-    const std::size_t bytes = sizeof kNone + sizeof(std::uint32_t) * std::size_t(photons);
-    if (list_.bytes() < bytes) list_ = gl::Buffer::create(*device_, bytes, "photons to be parted");
+void SplitPhotons::begin() {
     list_.write(0, std::as_bytes(std::span(kNone)));
     list_.bindStorage(SHOAL_STORAGE_WATER + 1);
     relief_.bindStorage(SHOAL_STORAGE_WATER + 2);

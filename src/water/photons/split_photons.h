@@ -22,10 +22,10 @@ public:
         float cellM = 0;       // of the photons
         double airShiftM = 0;  // how far waves shift at most where light comes through the air
     };
-    // Finds that out for all slots. Bound before: light space.
-    void measure(std::span<const Job> jobs);
-    // Empties the list, for `photons` at most, and leaves bound what photon_deposit.comp reads and lists in.
-    void begin(std::int64_t photons);
+    // Finds that out for all slots; none of them has more cells than `cells`. Bound before: light space.
+    void measure(std::span<const Job> jobs, std::int64_t cells);
+    // Empties the list and leaves bound what photon_deposit.comp reads and lists in.
+    void begin();
     // Parts what was listed: `program` is photon_split.comp's, its uniforms set.
     void lay(const gl::Program& program) const;
 
