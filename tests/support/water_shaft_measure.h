@@ -155,7 +155,7 @@ inline double flatShaftError(gl::Device& device, bool print = false) {
         for (const auto& [up, distance] : {std::pair{0.0, 10.0}, {0.5, 4.0}, {-0.5, 10.0}}) {
             scene.sun.toSun = toSunAt(zenith * kPiD / 180);
             scene.look({0, -2, 0}, {float(std::sqrt(1 - up * up)), float(up) - 2, 0}, 20);
-            scene.setDistances([&](Vec3) { return distance; });
+            scene.setDistances([metres = distance](Vec3) { return metres; });
             const Image picture = scene.picture();
             double here = 0;
             for (int y = 0; y < picture.height; ++y)
