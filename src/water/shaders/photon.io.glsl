@@ -180,7 +180,7 @@ vec4 photonJacobian(Photon p, int slot, float travel) {
     return j;
 }
 
-// The same of the ray that starts `from` (x, z, m) the photon's own, within its cell.
+// photonPlace of the ray that starts `from` (x, z, m) the photon's own, within its cell.
 vec2 photonPlaceFrom(Photon p, vec2 from, int slot, float travel) {
     vec4 j = photonJacobian(p, slot, travel);
     return photonPlace(p, slot, travel) + j.xy * from.x + j.zw * from.y;
